@@ -8,8 +8,7 @@ fn root() -> PathBuf {
 
 fn generated() -> String {
     let api = root().join("plugin-api");
-    let config =
-        cbindgen::Config::from_file(api.join("cbindgen.toml")).expect("cbindgen.toml is readable");
+    let config = cbindgen::Config::from_file(api.join("cbindgen.toml")).expect("cbindgen.toml is readable");
     let bindings = cbindgen::Builder::new()
         .with_config(config)
         .with_src(api.join("src/abi/version.rs"))
