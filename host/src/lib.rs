@@ -1,3 +1,4 @@
 //! Skeleton.
 
+pub mod integrator;
 pub mod scene;

@@ -42,10 +42,7 @@ impl Constants {
             return Ok(Self::ByName(constants));
         }
         let list = item.list("constants by name, { K = 1e-4, .. }, or by position, [1e-4, ..]")?;
-        list.iter()
-            .map(|entry| entry.number(Bound::Finite))
-            .collect::<Result<_, _>>()
-            .map(Self::ByPosition)
+        list.iter().map(|entry| entry.number(Bound::Finite)).collect::<Result<_, _>>().map(Self::ByPosition)
     }
 
     /// The names, or the number of positions: what must agree between the rows of a table.
@@ -75,19 +72,10 @@ pub struct TableRow {
 
 impl TableRow {
     fn read(section: &Section<'_>, model: ModelKind, units: &Units) -> Result<Self, SceneError> {
-        section.keys(
-            &[("time", &[]), ("temperature", &[]), ("constants", &[])],
-            model,
-        )?;
+        section.keys(&[("time", &[]), ("temperature", &[]), ("constants", &[])], model)?;
         let row = Self {
-            time: section
-                .get("time")
-                .map(|item| item.number(Bound::Finite))
-                .transpose()?,
-            temperature: section
-                .get("temperature")
-                .map(|item| item.number(units.temperatures()))
-                .transpose()?,
+            time: section.get("time").map(|item| item.number(Bound::Finite)).transpose()?,
+            temperature: section.get("temperature").map(|item| item.number(units.temperatures())).transpose()?,
             constants: Constants::read(&section.need("constants")?)?,
         };
         if row.time.is_none() && row.temperature.is_none() {
@@ -107,11 +95,7 @@ impl TableRow {
 }
 
 /// Reads all rows and holds them to one shape and a full grid.
-pub(super) fn read_table(
-    item: &Item<'_>,
-    model: ModelKind,
-    units: &Units,
-) -> Result<Vec<TableRow>, SceneError> {
+pub(super) fn read_table(item: &Item<'_>, model: ModelKind, units: &Units) -> Result<Vec<TableRow>, SceneError> {
     let items = item.list("rows of a table, [[law.table]]")?;
     let mut rows: Vec<TableRow> = Vec::with_capacity(items.len());
     let mut points = std::collections::BTreeSet::new();
@@ -119,20 +103,14 @@ pub(super) fn read_table(
         let row = TableRow::read(&item.section()?, model, units)?;
         let first = rows.first().unwrap_or(&row);
         if row.axes() != first.axes() {
-            return Err(item.error(Problem::RowAxes {
-                found: row.axes(),
-                expected: first.axes(),
-            }));
+            return Err(item.error(Problem::RowAxes { found: row.axes(), expected: first.axes() }));
         }
         if row.constants.shape() != first.constants.shape() {
             let (found, expected) = (row.constants.shape(), first.constants.shape());
             return Err(item.error(Problem::RowConstants { found, expected }));
         }
         if !points.insert((row.time.map(ordered), row.temperature.map(ordered))) {
-            return Err(item.error(Problem::RowRepeated {
-                time: row.time,
-                temperature: row.temperature,
-            }));
+            return Err(item.error(Problem::RowRepeated { time: row.time, temperature: row.temperature }));
         }
         rows.push(row);
     }
@@ -147,12 +125,7 @@ pub(super) fn read_table(
         for &temperature in &temperatures {
             if !points.contains(&(Some(ordered(time)), Some(ordered(temperature)))) {
                 let (times, temperatures) = (times.len(), temperatures.len());
-                return Err(item.error(Problem::TableHole {
-                    time,
-                    temperature,
-                    times,
-                    temperatures,
-                }));
+                return Err(item.error(Problem::TableHole { time, temperature, times, temperatures }));
             }
         }
     }

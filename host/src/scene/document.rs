@@ -87,15 +87,8 @@ impl Scene {
     /// [`Problem::Read`] where the file cannot be read, and all that [`Scene::parse`] finds.
     pub fn read(file: impl AsRef<Path>, overrides: &[Override]) -> Result<Self, SceneError> {
         let file = file.as_ref();
-        let bytes = std::fs::read(file).map_err(|error| {
-            Located::new(
-                Problem::Read {
-                    path: file.to_owned(),
-                    kind: error.kind(),
-                },
-                None,
-            )
-        })?;
+        let bytes = std::fs::read(file)
+            .map_err(|error| Located::new(Problem::Read { path: file.to_owned(), kind: error.kind() }, None))?;
         match String::from_utf8(bytes) {
             Ok(text) => Self::parse(&text, file, overrides),
             Err(error) => {
@@ -103,14 +96,7 @@ impl Scene {
                 let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
                 let end = start + text[start..].chars().next().map_or(0, char::len_utf8);
                 let source = file_source(file, text);
-                Err(Located::new(
-                    Problem::NotUtf8,
-                    Some(Location {
-                        source,
-                        span: start..end,
-                        key: String::new(),
-                    }),
-                ))
+                Err(Located::new(Problem::NotUtf8, Some(Location { source, span: start..end, key: String::new() })))
             }
         }
     }
@@ -119,26 +105,13 @@ impl Scene {
     ///
     /// # Errors
     /// The first [`Problem`] found, with its place in the text or in the override that brought it in.
-    pub fn parse(
-        text: &str,
-        file: impl AsRef<Path>,
-        overrides: &[Override],
-    ) -> Result<Self, SceneError> {
+    pub fn parse(text: &str, file: impl AsRef<Path>, overrides: &[Override]) -> Result<Self, SceneError> {
         let file = file.as_ref();
         let source = file_source(file, text.to_owned());
         let table = DeTable::parse(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            let location = Location {
-                source: source.clone(),
-                span,
-                key: String::new(),
-            };
-            Located::new(
-                Problem::Syntax {
-                    message: one_line(error.message()),
-                },
-                Some(location),
-            )
+            let location = Location { source: source.clone(), span, key: String::new() };
+            Located::new(Problem::Syntax { message: one_line(error.message()) }, Some(location))
         })?;
         let mut tree = Node::root(&table);
         let mut texts = vec![source];
@@ -158,33 +131,23 @@ impl Scene {
 
     fn typed(root: &Section<'_>, file: &Path) -> Result<(Self, Vec<(String, String)>), SceneError> {
         // The model decides which keys there are, but a misspelt section is the better thing to say first.
-        let model = root
-            .get("contact")
-            .and_then(|item| item.section().ok()?.get("model")?.word().ok());
-        root.keys(KEYS, model.unwrap_or(ModelKind::HalfSpace))
-            .or_else(|error| match *error.problem {
-                Problem::OtherModel { .. } if model.is_none() => Ok(()),
-                _ => Err(error),
-            })?;
+        let model = root.get("contact").and_then(|item| item.section().ok()?.get("model")?.word().ok());
+        root.keys(KEYS, model.unwrap_or(ModelKind::HalfSpace)).or_else(|error| match *error.problem {
+            Problem::OtherModel { .. } if model.is_none() => Ok(()),
+            _ => Err(error),
+        })?;
         let contact_item = root.need("contact")?;
         let contact_section = contact_item.section()?;
         let contact = Contact::read(&contact_section)?;
         let (model, dimension) = (contact.model.kind(), contact.dimension);
-        let units =
-            optional(root, "units", |section| Units::read(section, model))?.unwrap_or_default();
+        let units = optional(root, "units", |section| Units::read(section, model))?.unwrap_or_default();
         let law = Law::read(&root.need("law")?.section()?, model, dimension, &units)?;
         let (mut grid, mut surface) = (None, None);
         if model != ModelKind::Prescribed {
-            let needed = |key: &'static str| {
-                root.get(key)
-                    .ok_or_else(|| root.missing(key, "because the contact is solved"))
-            };
+            let needed =
+                |key: &'static str| root.get(key).ok_or_else(|| root.missing(key, "because the contact is solved"));
             grid = Some(Grid::read(&needed("grid")?.section()?, model, dimension)?);
-            surface = Some(Surface::read(
-                &needed("surface")?.section()?,
-                model,
-                dimension,
-            )?);
+            surface = Some(Surface::read(&needed("surface")?.section()?, model, dimension)?);
         }
         let loading = Loading::read(root, &contact, &units)?;
         check_datum(&contact_section, &contact, &loading)?;
@@ -197,15 +160,10 @@ impl Scene {
             surface,
             steps: loading.steps,
             cycles: loading.cycles,
-            integrator: optional(root, "integrator", |section| {
-                Integrator::read(section, model)
-            })?
-            .unwrap_or_default(),
-            scaling: optional(root, "scaling", |section| Scaling::read(section, model))?
-                .unwrap_or_default(),
+            integrator: optional(root, "integrator", |section| Integrator::read(section, model))?.unwrap_or_default(),
+            scaling: optional(root, "scaling", |section| Scaling::read(section, model))?.unwrap_or_default(),
             stop: optional(root, "stop", |section| Stop::read(section, model))?.unwrap_or_default(),
-            output: optional(root, "output", |section| Output::read(section, model))?
-                .unwrap_or_default(),
+            output: optional(root, "output", |section| Output::read(section, model))?.unwrap_or_default(),
             reference: optional(root, "reference", |section| Reference::read(section, model))?,
             file: file.to_owned(),
             places: Places::default(),
@@ -238,13 +196,7 @@ impl Scene {
         let mut around = key;
         loop {
             if let Some(found) = self.locate(around) {
-                return Located::new(
-                    problem,
-                    Some(Location {
-                        key: key.to_owned(),
-                        ..found
-                    }),
-                );
+                return Located::new(problem, Some(Location { key: key.to_owned(), ..found }));
             }
             match around.rfind('.') {
                 Some(dot) => around = &around[..dot],
@@ -256,11 +208,7 @@ impl Scene {
 }
 
 fn file_source(file: &Path, text: String) -> Arc<Source> {
-    Arc::new(Source {
-        name: file.display().to_string(),
-        text,
-        file: true,
-    })
+    Arc::new(Source { name: file.display().to_string(), text, file: true })
 }
 
 fn optional<T>(
@@ -275,37 +223,21 @@ fn optional<T>(
 }
 
 /// Displacements of a 2-D half-space have no natural zero: an approach means something only with a datum.
-fn check_datum(
-    section: &Section<'_>,
-    contact: &Contact,
-    loading: &Loading,
-) -> Result<(), SceneError> {
+fn check_datum(section: &Section<'_>, contact: &Contact, loading: &Loading) -> Result<(), SceneError> {
     let Model::HalfSpace(half_space) = &contact.model else {
         return Ok(());
     };
-    let steps = loading
-        .steps
-        .iter()
-        .chain(loading.cycles.iter().flat_map(|cycle| &cycle.steps));
-    let approach = steps
-        .into_iter()
-        .any(|step| matches!(step.drive, Some(Drive::Approach(_))));
+    let steps = loading.steps.iter().chain(loading.cycles.iter().flat_map(|cycle| &cycle.steps));
+    let approach = steps.into_iter().any(|step| matches!(step.drive, Some(Drive::Approach(_))));
     let wanted = contact.dimension == 2 && half_space.boundary == Boundary::Free && approach;
     match half_space.datum {
         Some(_) if !wanted => {
             let condition = "in 2-D contact with a free boundary under `approach`";
-            Err(section.error(
-                "datum",
-                Problem::Misplaced {
-                    key: "contact.datum".to_owned(),
-                    condition,
-                },
-            ))
+            Err(section.error("datum", Problem::Misplaced { key: "contact.datum".to_owned(), condition }))
         }
-        None if wanted => Err(section.missing(
-            "datum",
-            "because in 2-D free contact an approach has no zero of its own",
-        )),
+        None if wanted => {
+            Err(section.missing("datum", "because in 2-D free contact an approach has no zero of its own"))
+        }
         _ => Ok(()),
     }
 }

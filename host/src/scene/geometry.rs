@@ -21,11 +21,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    pub(super) fn read(
-        section: &Section<'_>,
-        model: ModelKind,
-        dimension: u8,
-    ) -> Result<Self, SceneError> {
+    pub(super) fn read(section: &Section<'_>, model: ModelKind, dimension: u8) -> Result<Self, SceneError> {
         section.keys(&[("size", &[]), ("cells", &[])], model)?;
         let item = section.need("size")?;
         let size = item.numbers(Bound::Above(0.0))?;
@@ -33,15 +29,9 @@ impl Grid {
         let item = section.need("cells")?;
         let cells = counts(&item, 1)?;
         in_plane(&item, cells.len(), dimension)?;
-        let all = cells
-            .iter()
-            .try_fold(1_u64, |all, &cells| all.checked_mul(cells as u64));
+        let all = cells.iter().try_fold(1_u64, |all, &cells| all.checked_mul(cells as u64));
         if all.is_none_or(|all| all > MOST_CELLS) {
-            return Err(item.error(Problem::TooManyCells {
-                key: item.path.clone(),
-                cells,
-                most: MOST_CELLS,
-            }));
+            return Err(item.error(Problem::TooManyCells { key: item.path.clone(), cells, most: MOST_CELLS }));
         }
         Ok(Self { size, cells })
     }
@@ -109,15 +99,7 @@ pub enum Shape {
     },
 }
 
-const SHAPES: &[&str] = &[
-    "sphere",
-    "cylinder",
-    "cone",
-    "flat-punch",
-    "wavy",
-    "rough",
-    "file",
-];
+const SHAPES: &[&str] = &["sphere", "cylinder", "cone", "flat-punch", "wavy", "rough", "file"];
 /// Each key with the shapes it belongs to.
 const OWNERS: &[(&str, &[&str])] = &[
     ("radius", &["sphere", "cylinder"]),
@@ -134,11 +116,7 @@ const OWNERS: &[(&str, &[&str])] = &[
 ];
 
 impl Surface {
-    pub(super) fn read(
-        section: &Section<'_>,
-        model: ModelKind,
-        dimension: u8,
-    ) -> Result<Self, SceneError> {
+    pub(super) fn read(section: &Section<'_>, model: ModelKind, dimension: u8) -> Result<Self, SceneError> {
         let mut keys: Vec<(&'static str, &[ModelKind])> = vec![("shape", &[]), ("center", &[])];
         keys.extend(OWNERS.iter().map(|(key, _)| (*key, &[] as &[ModelKind])));
         section.keys(&keys, model)?;
@@ -150,24 +128,13 @@ impl Surface {
         section.only_with("shape", &word, OWNERS)?;
         let positive = |key| section.need(key)?.number(Bound::Above(0.0));
         let shape = match word.as_str() {
-            "sphere" => Shape::Sphere {
-                radius: positive("radius")?,
-            },
-            "cylinder" => Shape::Cylinder {
-                radius: positive("radius")?,
-            },
-            "cone" => Shape::Cone {
-                angle: section.need("angle")?.number(Bound::Between(0.0, 90.0))?,
-            },
-            "flat-punch" => Shape::FlatPunch {
-                width: positive("width")?,
-            },
+            "sphere" => Shape::Sphere { radius: positive("radius")? },
+            "cylinder" => Shape::Cylinder { radius: positive("radius")? },
+            "cone" => Shape::Cone { angle: section.need("angle")?.number(Bound::Between(0.0, 90.0))? },
+            "flat-punch" => Shape::FlatPunch { width: positive("width")? },
             "wavy" => {
                 let amplitude = section.need("amplitude")?.number(Bound::AtLeast(0.0))?;
-                Shape::Wavy {
-                    amplitude,
-                    waves: waves(&section.need("waves")?, dimension)?,
-                }
+                Shape::Wavy { amplitude, waves: waves(&section.need("waves")?, dimension)? }
             }
             "rough" => {
                 let roll_off = positive("roll_off")?;
@@ -177,16 +144,10 @@ impl Surface {
                     roll_off,
                     cut_off: section.need("cut_off")?.number(Bound::AtLeast(roll_off))?,
                     // Written as a TOML integer, which ends at 63 bits.
-                    seed: section
-                        .get("seed")
-                        .map(|item| item.count(0, i64::MAX as u64))
-                        .transpose()?
-                        .unwrap_or(0),
+                    seed: section.get("seed").map(|item| item.count(0, i64::MAX as u64)).transpose()?.unwrap_or(0),
                 }
             }
-            _ => Shape::File {
-                file: section.need("file")?.path()?,
-            },
+            _ => Shape::File { file: section.need("file")?.path()? },
         };
         let center = match section.get("center") {
             Some(item) => {
@@ -201,20 +162,12 @@ impl Surface {
 }
 
 fn waves(item: &Item<'_>, dimension: u8) -> Result<Vec<u64>, SceneError> {
-    let waves: Vec<u64> = counts(item, 0)?
-        .into_iter()
-        .map(|count| count as u64)
-        .collect();
+    let waves: Vec<u64> = counts(item, 0)?.into_iter().map(|count| count as u64).collect();
     in_plane(item, waves.len(), dimension)?;
     if waves.iter().all(|&count| count == 0) {
         // No wave in any direction is no shape: the first count is the one that has to grow.
         let key = item.path.clone();
-        return Err(item.error(Problem::CountOutOfRange {
-            key,
-            found: 0,
-            least: 1,
-            most: 1 << 31,
-        }));
+        return Err(item.error(Problem::CountOutOfRange { key, found: 0, least: 1, most: 1 << 31 }));
     }
     Ok(waves)
 }

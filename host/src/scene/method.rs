@@ -110,19 +110,12 @@ impl Word for Method {
 }
 
 impl Word for BeyondLimit {
-    const ALL: &'static [(&'static str, Self)] = &[
-        ("refuse", Self::Refuse),
-        ("substep", Self::Substep),
-        ("run", Self::Run),
-    ];
+    const ALL: &'static [(&'static str, Self)] =
+        &[("refuse", Self::Refuse), ("substep", Self::Substep), ("run", Self::Run)];
 }
 
 impl Word for ScalingKind {
-    const ALL: &'static [(&'static str, Self)] = &[
-        ("none", Self::None),
-        ("auto", Self::Auto),
-        ("cycle", Self::Cycle),
-    ];
+    const ALL: &'static [(&'static str, Self)] = &[("none", Self::None), ("auto", Self::Auto), ("cycle", Self::Cycle)];
 }
 
 impl Default for Accuracy {
@@ -144,13 +137,7 @@ impl Serialize for Accuracy {
 impl Integrator {
     pub(super) fn read(section: &Section<'_>, model: ModelKind) -> Result<Self, SceneError> {
         section.keys(
-            &[
-                ("method", &[]),
-                ("tolerance", &[]),
-                ("substeps", &[]),
-                ("beyond_limit", SOLVED),
-                ("smallest_step", &[]),
-            ],
+            &[("method", &[]), ("tolerance", &[]), ("substeps", &[]), ("beyond_limit", SOLVED), ("smallest_step", &[])],
             model,
         )?;
         section.at_most_one(&["tolerance", "substeps"])?;
@@ -160,20 +147,10 @@ impl Integrator {
             (None, None) => Accuracy::default(),
         };
         Ok(Self {
-            method: section
-                .get("method")
-                .map(|item| item.word())
-                .transpose()?
-                .unwrap_or_default(),
+            method: section.get("method").map(|item| item.word()).transpose()?.unwrap_or_default(),
             accuracy,
-            beyond_limit: section
-                .get("beyond_limit")
-                .map(|item| item.word())
-                .transpose()?,
-            smallest_step: section
-                .get("smallest_step")
-                .map(|item| item.number(Bound::Above(0.0)))
-                .transpose()?,
+            beyond_limit: section.get("beyond_limit").map(|item| item.word()).transpose()?,
+            smallest_step: section.get("smallest_step").map(|item| item.number(Bound::Above(0.0))).transpose()?,
         })
     }
 }
@@ -188,14 +165,8 @@ impl Scaling {
         section.keys(&[("kind", &[]), ("safety", &[]), ("maximum", &[])], model)?;
         Ok(Self {
             kind: section.get("kind").map(|item| item.word()).transpose()?,
-            safety: section
-                .get("safety")
-                .map(|item| item.number(Bound::Between(0.0, 1.0)))
-                .transpose()?,
-            maximum: section
-                .get("maximum")
-                .map(|item| item.number(Bound::AtLeast(1.0)))
-                .transpose()?,
+            safety: section.get("safety").map(|item| item.number(Bound::Between(0.0, 1.0))).transpose()?,
+            maximum: section.get("maximum").map(|item| item.number(Bound::AtLeast(1.0))).transpose()?,
         })
     }
 }
@@ -203,15 +174,7 @@ impl Scaling {
 impl Stop {
     pub(super) fn read(section: &Section<'_>, model: ModelKind) -> Result<Self, SceneError> {
         section.keys(&[("wear_depth", &[]), ("wear_volume", &[])], model)?;
-        let positive = |key: &str| {
-            section
-                .get(key)
-                .map(|item| item.number(Bound::Above(0.0)))
-                .transpose()
-        };
-        Ok(Self {
-            wear_depth: positive("wear_depth")?,
-            wear_volume: positive("wear_volume")?,
-        })
+        let positive = |key: &str| section.get(key).map(|item| item.number(Bound::Above(0.0))).transpose();
+        Ok(Self { wear_depth: positive("wear_depth")?, wear_volume: positive("wear_volume")? })
     }
 }

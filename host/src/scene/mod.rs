@@ -21,9 +21,7 @@ mod units;
 mod tests;
 
 pub use constants::{Constants, TableRow};
-pub use contact::{
-    Body, Boundary, Contact, Elasticity, Foundation, HalfSpace, Model, ModelKind, Prescribed,
-};
+pub use contact::{Body, Boundary, Contact, Elasticity, Foundation, HalfSpace, Model, ModelKind, Prescribed};
 pub use document::Scene;
 pub use error::{Bound, Problem, SceneError};
 pub use geometry::{Grid, Shape, Surface};

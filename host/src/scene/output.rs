@@ -71,18 +71,12 @@ pub enum Target {
 }
 
 impl Word for Format {
-    const ALL: &'static [(&'static str, Self)] =
-        &[("csv", Self::Csv), ("npz", Self::Npz), ("vtk", Self::Vtk)];
+    const ALL: &'static [(&'static str, Self)] = &[("csv", Self::Csv), ("npz", Self::Npz), ("vtk", Self::Vtk)];
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self {
-            fields: Vec::new(),
-            every: Every::End,
-            formats: vec![Format::Csv, Format::Vtk],
-            checkpoint: None,
-        }
+        Self { fields: Vec::new(), every: Every::End, formats: vec![Format::Csv, Format::Vtk], checkpoint: None }
     }
 }
 
@@ -108,49 +102,24 @@ impl Serialize for Target {
 
 impl Output {
     pub(super) fn read(section: &Section<'_>, model: ModelKind) -> Result<Self, SceneError> {
-        section.keys(
-            &[
-                ("fields", &[]),
-                ("every", &[]),
-                ("times", &[]),
-                ("formats", &[]),
-                ("checkpoint", &[]),
-            ],
-            model,
-        )?;
+        section
+            .keys(&[("fields", &[]), ("every", &[]), ("times", &[]), ("formats", &[]), ("checkpoint", &[])], model)?;
         section.at_most_one(&["every", "times"])?;
-        let asked = ["every", "times", "formats"]
-            .iter()
-            .any(|key| section.get(key).is_some());
+        let asked = ["every", "times", "formats"].iter().any(|key| section.get(key).is_some());
         let fields = match section.get("fields") {
             Some(item) => {
                 let names = item.list("a list of field names")?;
-                names
-                    .iter()
-                    .map(|name| name.name("the name of a field"))
-                    .collect::<Result<_, _>>()?
+                names.iter().map(|name| name.name("the name of a field")).collect::<Result<_, _>>()?
             }
             None if asked => vec!["pressure".to_owned(), "wear".to_owned()],
             None => Vec::new(),
         };
         let formats = match section.get("formats") {
-            Some(item) => item
-                .list("a list of formats")?
-                .iter()
-                .map(|word| word.word())
-                .collect::<Result<_, _>>()?,
+            Some(item) => item.list("a list of formats")?.iter().map(|word| word.word()).collect::<Result<_, _>>()?,
             None => Self::default().formats,
         };
-        let checkpoint = section
-            .get("checkpoint")
-            .map(|item| item.number(Bound::Above(0.0)))
-            .transpose()?;
-        Ok(Self {
-            fields,
-            every: Every::read(section)?,
-            formats,
-            checkpoint,
-        })
+        let checkpoint = section.get("checkpoint").map(|item| item.number(Bound::Above(0.0))).transpose()?;
+        Ok(Self { fields, every: Every::read(section)?, formats, checkpoint })
     }
 }
 
@@ -177,11 +146,7 @@ impl Every {
             if let Some(&before) = times.last()
                 && found <= before
             {
-                return Err(entry.error(Problem::TimesGoBack {
-                    key: item.path.clone(),
-                    found,
-                    before,
-                }));
+                return Err(entry.error(Problem::TimesGoBack { key: item.path.clone(), found, before }));
             }
             times.push(found);
         }
@@ -201,12 +166,6 @@ impl Reference {
             (None, Some(item)) => Target::File(item.path()?),
             (None, None) => return Err(section.missing("kind` or `file", "to compare with")),
         };
-        Ok(Self {
-            target,
-            bar: section
-                .get("bar")
-                .map(|item| item.number(Bound::Above(0.0)))
-                .transpose()?,
-        })
+        Ok(Self { target, bar: section.get("bar").map(|item| item.number(Bound::Above(0.0))).transpose()? })
     }
 }

@@ -79,9 +79,7 @@ impl Location {
         let text = &self.source.text;
         let start = floor(text, self.span.start);
         let end = floor(text, self.span.end).max(start);
-        let line = text[start..end]
-            .find(['\n', '\r'])
-            .map_or(end, |newline| start + newline);
+        let line = text[start..end].find(['\n', '\r']).map_or(end, |newline| start + newline);
         start..line
     }
 }
@@ -110,10 +108,7 @@ pub struct Located<E> {
 impl<E> Located<E> {
     /// Ties a problem to a place.
     pub fn new(problem: E, location: Option<Location>) -> Self {
-        Self {
-            problem: Box::new(problem),
-            location,
-        }
+        Self { problem: Box::new(problem), location }
     }
 }
 
@@ -146,11 +141,7 @@ impl<E: std::error::Error + 'static> std::error::Error for Located<E> {
 }
 
 fn renderer(color: bool) -> Renderer {
-    if color {
-        Renderer::styled()
-    } else {
-        Renderer::plain()
-    }
+    if color { Renderer::styled() } else { Renderer::plain() }
 }
 
 /// The largest character boundary that is not above `index`.

@@ -7,34 +7,13 @@ use super::error::{Bound, SceneError};
 use super::reader::{Item, Section};
 
 /// Lengths and their sizes in metres.
-const LENGTHS: &[(&str, f64)] = &[
-    ("m", 1.0),
-    ("mm", 1e-3),
-    ("um", 1e-6),
-    ("µm", 1e-6),
-    ("nm", 1e-9),
-    ("cm", 1e-2),
-    ("in", 0.0254),
-];
+const LENGTHS: &[(&str, f64)] =
+    &[("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6), ("nm", 1e-9), ("cm", 1e-2), ("in", 0.0254)];
 /// Forces and their sizes in newtons; a pound-force is 0.45359237 kg times 9.80665 m/s^2.
-const FORCES: &[(&str, f64)] = &[
-    ("N", 1.0),
-    ("kN", 1e3),
-    ("MN", 1e6),
-    ("mN", 1e-3),
-    ("uN", 1e-6),
-    ("µN", 1e-6),
-    ("lbf", 4.448_221_615_260_5),
-];
+const FORCES: &[(&str, f64)] =
+    &[("N", 1.0), ("kN", 1e3), ("MN", 1e6), ("mN", 1e-3), ("uN", 1e-6), ("µN", 1e-6), ("lbf", 4.448_221_615_260_5)];
 /// Times and their sizes in seconds.
-const TIMES: &[(&str, f64)] = &[
-    ("s", 1.0),
-    ("ms", 1e-3),
-    ("us", 1e-6),
-    ("µs", 1e-6),
-    ("min", 60.0),
-    ("h", 3600.0),
-];
+const TIMES: &[(&str, f64)] = &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("min", 60.0), ("h", 3600.0)];
 /// Temperatures and their sizes in kelvins.
 const TEMPERATURES: &[(&str, f64)] = &[("K", 1.0), ("C", 1.0), ("degC", 1.0), ("°C", 1.0)];
 
@@ -109,22 +88,12 @@ impl Units {
     /// Sizes of the units in SI.
     pub fn sizes(&self) -> Sizes {
         let (metre, newton, second) = (self.length.size, self.force.size, self.time.size);
-        Sizes {
-            metre,
-            newton,
-            second,
-            kelvin: self.temperature.size,
-            kilogram: newton * second * second / metre,
-        }
+        Sizes { metre, newton, second, kelvin: self.temperature.size, kilogram: newton * second * second / metre }
     }
 
     /// Temperature of absolute zero in the scene's unit: 0 for kelvins, -273.15 for degrees Celsius.
     pub fn absolute_zero(&self) -> f64 {
-        if self.temperature.label == "K" {
-            0.0
-        } else {
-            -273.15
-        }
+        if self.temperature.label == "K" { 0.0 } else { -273.15 }
     }
 
     /// The range of temperatures that exist.
@@ -134,21 +103,12 @@ impl Units {
 
     pub(super) fn read(section: &Section<'_>, model: ModelKind) -> Result<Self, SceneError> {
         section.keys(
-            &[
-                ("length", &[]),
-                ("force", &[]),
-                ("time", &[]),
-                ("temperature", &[]),
-                ("reference_temperature", &[]),
-            ],
+            &[("length", &[]), ("force", &[]), ("time", &[]), ("temperature", &[]), ("reference_temperature", &[])],
             model,
         )?;
         let unit = |key: &str, labels: &'static [(&'static str, f64)]| match section.get(key) {
             Some(item) => Unit::read(&item, labels),
-            None => Ok(Unit {
-                label: labels[0].0,
-                size: labels[0].1,
-            }),
+            None => Ok(Unit { label: labels[0].0, size: labels[0].1 }),
         };
         let mut units = Self {
             length: unit("length", LENGTHS)?,
@@ -158,10 +118,8 @@ impl Units {
             reference_temperature: None,
         };
         let bound = units.temperatures();
-        units.reference_temperature = section
-            .get("reference_temperature")
-            .map(|item| item.number(bound))
-            .transpose()?;
+        units.reference_temperature =
+            section.get("reference_temperature").map(|item| item.number(bound)).transpose()?;
         Ok(units)
     }
 }

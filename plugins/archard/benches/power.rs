@@ -42,22 +42,13 @@ fn main() {
     let measured = std::env::args().any(|a| a == "--bench");
     let (rounds, effort) = if measured { (101, 200_000) } else { (1, 1_000) };
     println!("ns per point, medians of {rounds} interleaved rounds (K/H) p^m v^n dt");
-    println!(
-        "{:>7} {:>6} {:>6} {:>5} {:>8} {:>8} {:>7}",
-        "points", "m", "n", "slope", "libm", "kernel", "ratio"
-    );
+    println!("{:>7} {:>6} {:>6} {:>5} {:>8} {:>8} {:>7}", "points", "m", "n", "slope", "libm", "kernel", "ratio");
     for points in [1, 3, 8, 64, POINTS, 1_000_000] {
         if !measured && points > POINTS {
             continue;
         }
         let all: &[(f64, f64, bool)] = if points == POINTS {
-            &[
-                (1.5, 0.8, false),
-                (1.5, 0.8, true),
-                (1.5, 1.0, false),
-                (1.0, 0.8, false),
-                (1.0, 1.0, false),
-            ]
+            &[(1.5, 0.8, false), (1.5, 0.8, true), (1.5, 1.0, false), (1.0, 0.8, false), (1.0, 1.0, false)]
         } else {
             &[(1.5, 0.8, false)]
         };
@@ -69,12 +60,8 @@ fn main() {
 
 fn row(points: usize, m: f64, n: f64, with_slope: bool, rounds: usize, effort: usize) {
     let mut r = Sequence(7);
-    let p: Vec<f64> = (0..points)
-        .map(|_| 10f64.powf(18.0 * r.next() - 6.0))
-        .collect();
-    let v: Vec<f64> = (0..points)
-        .map(|_| 10f64.powf(12.0 * r.next() - 9.0))
-        .collect();
+    let p: Vec<f64> = (0..points).map(|_| 10f64.powf(18.0 * r.next() - 6.0)).collect();
+    let v: Vec<f64> = (0..points).map(|_| 10f64.powf(12.0 * r.next() - 9.0)).collect();
     let (k, h, dt) = (1e-4, 2e9, 0.1);
     let mut plain = vec![0.0; points];
     let mut out = vec![0.0; points];
@@ -108,8 +95,5 @@ fn row(points: usize, m: f64, n: f64, with_slope: bool, rounds: usize, effort: u
         assert!((a - b).abs() <= 1e-14 * a.abs(), "libm {a:e}, kernel {b:e}");
     }
     let (libm, kernel) = (median(&mut libm), median(&mut kernel));
-    println!(
-        "{points:>7} {m:>6} {n:>6} {with_slope:>5} {libm:>8.2} {kernel:>8.2} {:>7.2}",
-        libm / kernel
-    );
+    println!("{points:>7} {m:>6} {n:>6} {with_slope:>5} {libm:>8.2} {kernel:>8.2} {:>7.2}", libm / kernel);
 }

@@ -18,10 +18,7 @@ impl<'a> Column<'a> {
     /// The same value at every point.
     #[must_use]
     pub fn uniform(value: &'a f64) -> Self {
-        Self {
-            values: std::slice::from_ref(value),
-            step: 0,
-        }
+        Self { values: std::slice::from_ref(value), step: 0 }
     }
 
     /// One value after the other, a point each.
@@ -113,27 +110,11 @@ pub fn increments(inputs: &Inputs, out: &mut [f64], slope: Option<&mut [f64]>) {
 ///
 /// # Panics
 /// As [`increments`].
-pub fn increments_by(
-    instructions: Instructions,
-    inputs: &Inputs,
-    out: &mut [f64],
-    mut slope: Option<&mut [f64]>,
-) {
-    let Inputs {
-        pressure,
-        velocity,
-        m,
-        n,
-        coefficient,
-        hardness,
-        dt,
-    } = *inputs;
+pub fn increments_by(instructions: Instructions, inputs: &Inputs, out: &mut [f64], mut slope: Option<&mut [f64]>) {
+    let Inputs { pressure, velocity, m, n, coefficient, hardness, dt } = *inputs;
     let points = out.len();
     for column in [pressure, velocity, m, n, coefficient, hardness] {
-        assert!(
-            column.points() >= points,
-            "a column is shorter than the batch"
-        );
+        assert!(column.points() >= points, "a column is shorter than the batch");
     }
     if let Some(slope) = &slope {
         assert_eq!(slope.len(), points, "one slope per point");

@@ -25,24 +25,14 @@ pub(super) fn point(p: f64, v: f64, m: f64, n: f64, c: Scale) -> Outcome {
         (_, LINEAR) => linear::lane::<ABSENT, LINEAR>(p, v, c.value()),
         _ => linear::lane::<ABSENT, ABSENT>(p, v, c.value()),
     };
-    if quick.wear.is_nan() {
-        wide(p, v, m, n, c)
-    } else {
-        quick
-    }
+    if quick.wear.is_nan() { wide(p, v, m, n, c) } else { quick }
 }
 
 /// `c p^m v^n` and its slope for any input, by logarithms of about 100 bits.
 #[inline(always)]
 pub(super) fn wide(p: f64, v: f64, m: f64, n: f64, c: Scale) -> Outcome {
-    const VOID: Outcome = Outcome {
-        wear: f64::NAN,
-        slope: f64::NAN,
-    };
-    const SILENT: Outcome = Outcome {
-        wear: 0.0,
-        slope: 0.0,
-    };
+    const VOID: Outcome = Outcome { wear: f64::NAN, slope: f64::NAN };
+    const SILENT: Outcome = Outcome { wear: 0.0, slope: 0.0 };
     let v = if n == 0.0 { 1.0 } else { v.abs() };
     if ![p, v, m, n, c.hi].iter().all(|x| x.is_finite()) {
         return VOID;
@@ -71,21 +61,10 @@ pub(super) fn wide(p: f64, v: f64, m: f64, n: f64, c: Scale) -> Outcome {
             _ => t = t.plus(log2(f, e).scaled(exponent / 4096.0)),
         }
     }
-    let t = if t.hi.abs() > 16.0 {
-        Double::from(16f64.copysign(t.hi))
-    } else {
-        t
-    };
+    let t = if t.hi.abs() > 16.0 { Double::from(16f64.copysign(t.hi)) } else { t };
     let (hi, lo) = fast_two_sum(t.hi * 4096.0, t.lo * 4096.0);
     let (r, k) = exp2(Double { hi, lo }, factor.hi, factor.lo, k);
-    Outcome {
-        wear: ldexp(r, k),
-        slope: if m == 0.0 {
-            0.0
-        } else {
-            ldexp(r / fp * m, k - kp)
-        },
-    }
+    Outcome { wear: ldexp(r, k), slope: if m == 0.0 { 0.0 } else { ldexp(r / fp * m, k - kp) } }
 }
 
 /// `log2(f 2^k)` to 2^-98 of itself, by the series `2 atanh(s) / ln 2`, `s = (f - 1) / (f + 1)`.
@@ -102,9 +81,6 @@ fn log2(f: f64, k: f64) -> Double {
         let term = one.over(Double::from(f64::from(2 * i + 1)));
         sum = sum.times(z).plus(term);
     }
-    let c0 = Double {
-        hi: super::coefficients::C0_HI,
-        lo: super::coefficients::C0_LO,
-    };
+    let c0 = Double { hi: super::coefficients::C0_HI, lo: super::coefficients::C0_LO };
     Double::from(k).plus(s.times(sum).times(c0))
 }

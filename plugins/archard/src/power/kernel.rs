@@ -88,10 +88,7 @@ pub(super) fn lane<const M: u8, const N: u8>(p: f64, v: f64, m: f64, n: f64, c: 
         let x = if silent { 0.0 } else { x };
         if known { x } else { f64::NAN }
     };
-    Outcome {
-        wear: settle(ldexp(r, k)),
-        slope: settle(ldexp(r / fp * m, k - kp)),
-    }
+    Outcome { wear: settle(ldexp(r, k)), slope: settle(ldexp(r / fp * m, k - kp)) }
 }
 
 /// `(hi + lo) f`, not normalised: `|lo|` stays below two units in the last place of `hi`.
@@ -105,10 +102,7 @@ fn times(hi: f64, lo: f64, f: f64) -> (f64, f64) {
 #[inline(always)]
 fn product(m: f64, x: Double) -> Double {
     let (hi, e) = two_product(m, x.hi);
-    Double {
-        hi,
-        lo: m.mul_add(x.lo, e),
-    }
+    Double { hi, lo: m.mul_add(x.lo, e) }
 }
 
 /// `log2(f 2^k)` for `sqrt(1/2) <= f < sqrt(2)` and an integer `k`.
@@ -145,10 +139,7 @@ pub(super) fn log2(f: f64, k: f64) -> Double {
 
     let (part, part_e) = fast_two_sum(first, second);
     let (hi, hi_e) = fast_two_sum(k, part);
-    Double {
-        hi,
-        lo: hi_e + (part_e + (first_lo + second_lo)),
-    }
+    Double { hi, lo: hi_e + (part_e + (first_lo + second_lo)) }
 }
 
 /// `(hi + lo) 2^(t + k)` as a double near 1 and a binary exponent.

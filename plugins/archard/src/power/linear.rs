@@ -18,8 +18,5 @@ pub(super) fn lane<const M: u8, const N: u8>(p: f64, v: f64, c: f64) -> Outcome 
         let x = if open { 0.0 } else { x };
         if known { x } else { f64::NAN }
     };
-    Outcome {
-        wear: settle(first * v),
-        slope: settle(if M == LINEAR { c * v } else { 0.0 }),
-    }
+    Outcome { wear: settle(first * v), slope: settle(if M == LINEAR { c * v } else { 0.0 }) }
 }

@@ -60,11 +60,7 @@ pub struct Scale {
 
 impl Scale {
     /// The factor 1: the bare power p^m v^n.
-    pub const ONE: Self = Self {
-        hi: 1.0,
-        lo: 0.0,
-        exponent: 0.0,
-    };
+    pub const ONE: Self = Self { hi: 1.0, lo: 0.0, exponent: 0.0 };
 
     /// `(k / h) dt` with `k` the wear coefficient, `h` the hardness, `dt` a length of time.
     ///
@@ -94,11 +90,7 @@ impl Scale {
         let sign = 1f64.copysign(k) * 1f64.copysign(h) * 1f64.copysign(dt);
         let sign = if nothing { 0.0 } else { sign };
         let sign = if finite { sign } else { f64::NAN };
-        Self {
-            hi: hi * sign,
-            lo: lo * sign,
-            exponent: if nothing { 0.0 } else { ke - he + de },
-        }
+        Self { hi: hi * sign, lo: lo * sign, exponent: if nothing { 0.0 } else { ke - he + de } }
     }
 
     /// The factor rounded to a double (infinite or zero beyond the range of doubles).

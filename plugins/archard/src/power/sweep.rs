@@ -34,12 +34,7 @@ pub(super) struct Uniform {
 
 impl Uniform {
     pub(super) fn new(m: f64, n: f64, c: Scale) -> Self {
-        Self {
-            m,
-            n,
-            c,
-            value: c.value(),
-        }
+        Self { m, n, c, value: c.value() }
     }
 }
 
@@ -98,13 +93,7 @@ impl Constants for Each<'_> {
     }
     #[inline(always)]
     fn first(self, points: usize) -> Self {
-        Self {
-            m: &self.m[..points],
-            n: &self.n[..points],
-            k: &self.k[..points],
-            h: &self.h[..points],
-            ..self
-        }
+        Self { m: &self.m[..points], n: &self.n[..points], k: &self.k[..points], h: &self.h[..points], ..self }
     }
 }
 
@@ -137,26 +126,14 @@ pub(super) fn run<C: Constants>(
 /// [`choose`] compiled for AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn run_avx2<C: Constants>(
-    p: &[f64],
-    v: &[f64],
-    constants: C,
-    out: &mut [f64],
-    slope: Option<&mut [f64]>,
-) {
+fn run_avx2<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], slope: Option<&mut [f64]>) {
     choose(p, v, constants, out, slope);
 }
 
 /// Without fused multiply-add in hardware a loop has nothing to gain over single points, which the
 /// mathematics library's `fma` bounds; so these loops are not compiled a second time.
 #[cfg(target_arch = "x86_64")]
-fn run_any<C: Constants>(
-    p: &[f64],
-    v: &[f64],
-    constants: C,
-    out: &mut [f64],
-    slope: Option<&mut [f64]>,
-) {
+fn run_any<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], slope: Option<&mut [f64]>) {
     if constants.kinds() == (LINEAR, LINEAR) && slope.is_none() {
         if sweep::<C, LINEAR, LINEAR, false>(p, v, constants, out, &mut []) {
             finish(p, v, constants, out, slope);
@@ -168,13 +145,7 @@ fn run_any<C: Constants>(
 }
 
 #[inline(always)]
-fn choose<C: Constants>(
-    p: &[f64],
-    v: &[f64],
-    constants: C,
-    out: &mut [f64],
-    mut slope: Option<&mut [f64]>,
-) {
+fn choose<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], mut slope: Option<&mut [f64]>) {
     macro_rules! by_kind {
         ($($m:ident $n:ident),*) => {
             match (constants.kinds(), slope.as_deref_mut()) {
@@ -224,13 +195,7 @@ fn sweep<C: Constants, const M: u8, const N: u8, const SLOPE: bool>(
 
 /// Evaluates the points that a sweep left unanswered, and those whose kind it did not serve.
 #[inline(always)]
-fn finish<C: Constants>(
-    p: &[f64],
-    v: &[f64],
-    constants: C,
-    out: &mut [f64],
-    mut slope: Option<&mut [f64]>,
-) {
+fn finish<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], mut slope: Option<&mut [f64]>) {
     for i in 0..out.len() {
         if out[i].is_nan() || constants.odd(i) {
             let (m, n, c) = constants.at(i);
