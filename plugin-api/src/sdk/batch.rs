@@ -72,6 +72,14 @@ impl<'a> Column<'a> {
         // SAFETY: with a step of one the host's promise of a value per point is a promise of a contiguous array.
         (self.step == 1).then(|| unsafe { core::slice::from_raw_parts(self.ptr, self.points) })
     }
+    /// The array behind the column and the number of doubles from point to point (0: one value for all).
+    #[inline]
+    pub fn strided(&self) -> (&'a [f64], usize) {
+        let step = usize::try_from(self.step).unwrap_or(0);
+        let len = if self.points == 0 { 0 } else { (self.points - 1) * step + 1 };
+        // SAFETY: the last value that the host promises is that of the last point, `(points - 1) * step` doubles in.
+        (unsafe { core::slice::from_raw_parts(self.ptr, len) }, step)
+    }
     /// Values of the points `start ..` side by side: the host's own array, or a copy in `room`.
     #[inline]
     pub fn gather<'b>(&self, start: usize, room: &'b mut [f64]) -> &'b [f64]
