@@ -1,9 +1,10 @@
 //! What can be wrong with a scene.
 
-use std::fmt;
 use std::path::PathBuf;
 
+use super::bound::Bound;
 use super::contact::ModelKind;
+use super::phrase::{Because, Hint, List, Most, Point, Stranger};
 use super::place::Located;
 
 /// A problem of a scene with its place in the file or in an override.
@@ -99,7 +100,7 @@ pub enum Problem {
         bound: Bound,
     },
     /// A whole number outside the range of its key.
-    #[error("found {found} for `{key}`, expected a whole number from {least} to {most}")]
+    #[error("found {found} for `{key}`, expected a whole number not below {least}{}", Most(*most))]
     CountOutOfRange {
         /// The key.
         key: String,
@@ -344,116 +345,4 @@ pub enum Problem {
         /// What that value is.
         found: String,
     },
-}
-
-/// The range a number must lie in.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bound {
-    /// Any finite number.
-    Finite,
-    /// The number or more.
-    AtLeast(f64),
-    /// More than the number.
-    Above(f64),
-    /// Between the numbers, both excluded.
-    Between(f64, f64),
-    /// From the first to the second, both included.
-    FromTo(f64, f64),
-    /// Above the first and up to the second.
-    AboveUpTo(f64, f64),
-}
-
-impl Bound {
-    /// Whether a number lies in the range; NaN and the infinities never do.
-    pub fn holds(self, value: f64) -> bool {
-        value.is_finite()
-            && match self {
-                Self::Finite => true,
-                Self::AtLeast(least) => value >= least,
-                Self::Above(least) => value > least,
-                Self::Between(low, high) => value > low && value < high,
-                Self::FromTo(low, high) => value >= low && value <= high,
-                Self::AboveUpTo(low, high) => value > low && value <= high,
-            }
-    }
-}
-
-impl fmt::Display for Bound {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Finite => write!(f, "a finite number"),
-            Self::AtLeast(least) => write!(f, "a number not below {least}"),
-            Self::Above(least) => write!(f, "a number above {least}"),
-            Self::Between(low, high) => write!(f, "a number above {low} and below {high}"),
-            Self::FromTo(low, high) => write!(f, "a number from {low} to {high}"),
-            Self::AboveUpTo(low, high) => write!(f, "a number above {low} and not above {high}"),
-        }
-    }
-}
-
-/// "did you mean" where something is near, the list of all where nothing is.
-struct Hint<'a>(&'a Option<String>, &'a [String]);
-
-impl fmt::Display for Hint<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.0, self.1) {
-            (Some(nearest), _) => write!(f, ", did you mean `{nearest}`?"),
-            (None, []) => Ok(()),
-            (None, valid) => write!(f, ", expected {}", List(valid)),
-        }
-    }
-}
-
-/// `a`, `b` or `c`.
-struct List<'a, T>(&'a [T]);
-
-impl<T: fmt::Display> fmt::Display for List<'_, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, item) in self.0.iter().enumerate() {
-            let between = match index {
-                0 => "",
-                _ if index + 1 == self.0.len() => " or ",
-                _ => ", ",
-            };
-            write!(f, "{between}`{item}`")?;
-        }
-        Ok(())
-    }
-}
-
-struct Because<'a>(&'a str);
-
-impl fmt::Display for Because<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() {
-            Ok(())
-        } else {
-            write!(f, " {}", self.0)
-        }
-    }
-}
-
-struct Stranger<'a>(&'a Option<char>);
-
-impl fmt::Display for Stranger<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |stranger| {
-            write!(f, " with {stranger:?} among them")
-        })
-    }
-}
-
-struct Point<'a>(&'a Option<f64>, &'a Option<f64>);
-
-impl fmt::Display for Point<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.0, self.1) {
-            (Some(time), Some(temperature)) => {
-                write!(f, "time {time:?}, temperature {temperature:?}")
-            }
-            (Some(time), None) => write!(f, "time {time:?}"),
-            (None, Some(temperature)) => write!(f, "temperature {temperature:?}"),
-            (None, None) => write!(f, "no point"),
-        }
-    }
 }

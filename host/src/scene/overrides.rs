@@ -49,6 +49,9 @@ const EXCLUSIVE: &[(&str, &[&str], &[&str])] = &[
     ("step", &["stroke", "frequency"], &["velocity"]),
 ];
 
+/// Parts of a key path beyond which it is no key of a scene, and recursion over it would be a risk.
+const DEEPEST: usize = 16;
+
 /// One part of a key path with its place in the override.
 struct Part {
     name: String,
@@ -278,6 +281,9 @@ fn split(text: &str) -> Option<(Vec<Part>, usize)> {
             }
         };
         if span.is_empty() && quote.is_none() {
+            return None;
+        }
+        if parts.len() == DEEPEST {
             return None;
         }
         parts.push(Part {

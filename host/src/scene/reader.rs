@@ -2,13 +2,11 @@
 
 use std::path::PathBuf;
 
+use super::bound::{Bound, LARGEST_COUNT};
 use super::contact::ModelKind;
-use super::error::{Bound, Problem, SceneError};
+use super::error::{Problem, SceneError};
 use super::place::Located;
 use super::tree::{Entry, Node, Place, Places, Value, join};
-
-/// The largest count: whole numbers up to here are exact as floats.
-pub(super) const MOST: u64 = 1 << 53;
 
 /// A set of words that a key may say; the first is not special.
 pub(super) trait Word: Copy + 'static {
@@ -255,7 +253,7 @@ impl<'a> Item<'a> {
     pub(super) fn count(&self, least: u64, most: u64) -> Result<u64, SceneError> {
         let found = match self.node.value {
             Value::Integer(integer) => integer,
-            Value::Float(float) if float.fract() == 0.0 && float.abs() <= MOST as f64 => {
+            Value::Float(float) if float.fract() == 0.0 && float.abs() <= LARGEST_COUNT as f64 => {
                 float as i128
             }
             _ => return Err(self.wrong("a whole number")),
