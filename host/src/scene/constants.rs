@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::bound::Bound;
 use super::contact::ModelKind;
-use super::error::{Bound, Problem, SceneError};
+use super::error::{Problem, SceneError};
 use super::reader::{Item, Section};
 use super::units::Units;
 
@@ -132,7 +133,7 @@ pub(super) fn read_table(item: &Item<'_>, model: ModelKind, units: &Units) -> Re
     Ok(rows)
 }
 
-/// Bits that compare like the number, with one zero.
+/// Bits that are equal exactly where finite numbers are: with one zero.
 fn ordered(value: f64) -> u64 {
     (value + 0.0).to_bits()
 }

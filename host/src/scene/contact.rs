@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::error::{Bound, SceneError};
+use super::bound::Bound;
+use super::error::SceneError;
 use super::reader::{Section, Word};
 
 /// The contact models by name.

@@ -7,10 +7,11 @@ use serde::Serialize;
 use toml::de::DeTable;
 
 use super::contact::{Boundary, Contact, Model, ModelKind, SOLVED};
+use super::drive::Drive;
 use super::error::{Problem, SceneError};
 use super::geometry::{Grid, Surface};
 use super::law::Law;
-use super::loading::{Cycle, Drive, Loading, Step};
+use super::loading::{Cycle, Loading, Step};
 use super::method::{Integrator, Scaling, Stop};
 use super::output::{Output, Reference};
 use super::overrides::{Override, one_line};
@@ -49,8 +50,10 @@ pub struct Scene {
     /// How wear is advanced.
     pub integrator: Integrator,
     /// Scaling of the wear increment.
+    #[serde(skip_serializing_if = "Scaling::is_default")]
     pub scaling: Scaling,
     /// When to end early.
+    #[serde(skip_serializing_if = "Stop::is_default")]
     pub stop: Stop,
     /// What to write.
     pub output: Output,

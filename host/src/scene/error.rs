@@ -1,9 +1,10 @@
 //! What can be wrong with a scene.
 
-use std::fmt;
 use std::path::PathBuf;
 
+use super::bound::Bound;
 use super::contact::ModelKind;
+use super::phrase::{Because, Hint, List, Most, Point, Stranger};
 use super::place::Located;
 
 /// A problem of a scene with its place in the file or in an override.
@@ -43,7 +44,10 @@ pub enum Problem {
         valid: Vec<String>,
     },
     /// A key of another contact model.
-    #[error("found `{key}` in a scene with contact.model = \"{model}\", expected it only with {}", List(models))]
+    #[error(
+        "found `{key}` in a scene with contact.model = \"{model}\", expected it only with {}",
+        List(models)
+    )]
     OtherModel {
         /// The key.
         key: String,
@@ -53,7 +57,10 @@ pub enum Problem {
         models: Vec<ModelKind>,
     },
     /// A key of another surface shape or kind of entry.
-    #[error("found `{key}` where {setting} = \"{found}\", expected it only with {}", List(expected))]
+    #[error(
+        "found `{key}` where {setting} = \"{found}\", expected it only with {}",
+        List(expected)
+    )]
     OtherSetting {
         /// The key.
         key: String,
@@ -93,7 +100,7 @@ pub enum Problem {
         bound: Bound,
     },
     /// A whole number outside the range of its key.
-    #[error("found {found} for `{key}`, expected a whole number from {least} to {most}")]
+    #[error("found {found} for `{key}`, expected a whole number not below {least}{}", Most(*most))]
     CountOutOfRange {
         /// The key.
         key: String,
@@ -159,7 +166,10 @@ pub enum Problem {
         condition: &'static str,
     },
     /// A list of the wrong length.
-    #[error("found {found} entries for `{key}`, expected {expected}{}", Because(reason))]
+    #[error(
+        "found {found} entries for `{key}`, expected {expected}{}",
+        Because(reason)
+    )]
     WrongLength {
         /// The key.
         key: String,
@@ -189,7 +199,10 @@ pub enum Problem {
         sum: f64,
     },
     /// A digest that is not one.
-    #[error("found {length} characters{} for `{key}`, expected 64 hexadecimal digits", Stranger(stranger))]
+    #[error(
+        "found {length} characters{} for `{key}`, expected 64 hexadecimal digits",
+        Stranger(stranger)
+    )]
     Digest {
         /// The key.
         key: String,
@@ -199,7 +212,9 @@ pub enum Problem {
         stranger: Option<char>,
     },
     /// A direction of no length.
-    #[error("found a direction of length {length:?} for `{key}`, expected one that points somewhere")]
+    #[error(
+        "found a direction of length {length:?} for `{key}`, expected one that points somewhere"
+    )]
     NoDirection {
         /// The key.
         key: String,
@@ -207,7 +222,9 @@ pub enum Problem {
         length: f64,
     },
     /// A direction that leaves the plane of a 2-D scene.
-    #[error("found a y component of {y:?} for `{key}` in a scene with contact.dimension = 2, expected [x, z]")]
+    #[error(
+        "found a y component of {y:?} for `{key}` in a scene with contact.dimension = 2, expected [x, z]"
+    )]
     LeavesPlane {
         /// The key.
         key: String,
@@ -225,7 +242,9 @@ pub enum Problem {
         before: f64,
     },
     /// A row of a table that says neither when nor how warm.
-    #[error("found a row of `law.table` with neither `time` nor `temperature`, expected one of them or both")]
+    #[error(
+        "found a row of `law.table` with neither `time` nor `temperature`, expected one of them or both"
+    )]
     RowWithoutPoint,
     /// Rows of a table with different axes.
     #[error("found a row of `law.table` with {found}, expected {expected} as in the first row")]
@@ -236,7 +255,9 @@ pub enum Problem {
         expected: &'static str,
     },
     /// Rows of a table with different constants.
-    #[error("found a row of `law.table` with the constants {found}, expected {expected} as in the first row")]
+    #[error(
+        "found a row of `law.table` with the constants {found}, expected {expected} as in the first row"
+    )]
     RowConstants {
         /// The constants of this row.
         found: String,
@@ -244,7 +265,10 @@ pub enum Problem {
         expected: String,
     },
     /// Two rows for one point.
-    #[error("found a second row of `law.table` at {}, expected one row a point", Point(time, temperature))]
+    #[error(
+        "found a second row of `law.table` at {}, expected one row a point",
+        Point(time, temperature)
+    )]
     RowRepeated {
         /// Its time.
         time: Option<f64>,
@@ -272,7 +296,9 @@ pub enum Problem {
         quantity: String,
     },
     /// A ramp from a step that does not give the quantity.
-    #[error("found `{quantity}` in `{key}`, expected `{before}` to give it too, because a ramp starts from there")]
+    #[error(
+        "found `{quantity}` in `{key}`, expected `{before}` to give it too, because a ramp starts from there"
+    )]
     RampWithoutStart {
         /// The key.
         key: String,
@@ -288,7 +314,9 @@ pub enum Problem {
         text: String,
     },
     /// An override of an entry that does not exist.
-    #[error("found entry {index} of `{list}`, which has {count} (counted from 0), expected one that the scene has")]
+    #[error(
+        "found entry {index} of `{list}`, which has {count} (counted from 0), expected one that the scene has"
+    )]
     NoSuchEntry {
         /// The list.
         list: String,
@@ -298,7 +326,9 @@ pub enum Problem {
         count: usize,
     },
     /// An override of a list where an entry is meant.
-    #[error("found `{key}` of the list `{list}`, expected the number of an entry first, as in {list}.0.{key}")]
+    #[error(
+        "found `{key}` of the list `{list}`, expected the number of an entry first, as in {list}.0.{key}"
+    )]
     EntryNeeded {
         /// The list.
         list: String,
@@ -315,110 +345,4 @@ pub enum Problem {
         /// What that value is.
         found: String,
     },
-}
-
-/// The range a number must lie in.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bound {
-    /// Any finite number.
-    Finite,
-    /// The number or more.
-    AtLeast(f64),
-    /// More than the number.
-    Above(f64),
-    /// Between the numbers, both excluded.
-    Between(f64, f64),
-    /// From the first to the second, both included.
-    FromTo(f64, f64),
-    /// Above the first and up to the second.
-    AboveUpTo(f64, f64),
-}
-
-impl Bound {
-    /// Whether a number lies in the range; NaN and the infinities never do.
-    pub fn holds(self, value: f64) -> bool {
-        value.is_finite()
-            && match self {
-                Self::Finite => true,
-                Self::AtLeast(least) => value >= least,
-                Self::Above(least) => value > least,
-                Self::Between(low, high) => value > low && value < high,
-                Self::FromTo(low, high) => value >= low && value <= high,
-                Self::AboveUpTo(low, high) => value > low && value <= high,
-            }
-    }
-}
-
-impl fmt::Display for Bound {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Finite => write!(f, "a finite number"),
-            Self::AtLeast(least) => write!(f, "a number not below {least}"),
-            Self::Above(least) => write!(f, "a number above {least}"),
-            Self::Between(low, high) => write!(f, "a number above {low} and below {high}"),
-            Self::FromTo(low, high) => write!(f, "a number from {low} to {high}"),
-            Self::AboveUpTo(low, high) => write!(f, "a number above {low} and not above {high}"),
-        }
-    }
-}
-
-/// "did you mean" where something is near, the list of all where nothing is.
-struct Hint<'a>(&'a Option<String>, &'a [String]);
-
-impl fmt::Display for Hint<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.0, self.1) {
-            (Some(nearest), _) => write!(f, ", did you mean `{nearest}`?"),
-            (None, []) => Ok(()),
-            (None, valid) => write!(f, ", expected {}", List(valid)),
-        }
-    }
-}
-
-/// `a`, `b` or `c`.
-struct List<'a, T>(&'a [T]);
-
-impl<T: fmt::Display> fmt::Display for List<'_, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, item) in self.0.iter().enumerate() {
-            let between = match index {
-                0 => "",
-                _ if index + 1 == self.0.len() => " or ",
-                _ => ", ",
-            };
-            write!(f, "{between}`{item}`")?;
-        }
-        Ok(())
-    }
-}
-
-struct Because<'a>(&'a str);
-
-impl fmt::Display for Because<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() { Ok(()) } else { write!(f, " {}", self.0) }
-    }
-}
-
-struct Stranger<'a>(&'a Option<char>);
-
-impl fmt::Display for Stranger<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |stranger| write!(f, " with {stranger:?} among them"))
-    }
-}
-
-struct Point<'a>(&'a Option<f64>, &'a Option<f64>);
-
-impl fmt::Display for Point<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.0, self.1) {
-            (Some(time), Some(temperature)) => {
-                write!(f, "time {time:?}, temperature {temperature:?}")
-            }
-            (Some(time), None) => write!(f, "time {time:?}"),
-            (None, Some(temperature)) => write!(f, "temperature {temperature:?}"),
-            (None, None) => write!(f, "no point"),
-        }
-    }
 }

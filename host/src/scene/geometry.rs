@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::bound::Bound;
 use super::contact::ModelKind;
-use super::error::{Bound, Problem, SceneError};
+use super::error::{Problem, SceneError};
 use super::reader::{Item, Section};
 
 /// Cells in all beyond which an index no longer fits every format that is written.

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::bound::Bound;
 use super::constants::{Constants, TableRow, read_table};
 use super::contact::ModelKind;
-use super::error::{Bound, Problem, SceneError};
+use super::error::{Problem, SceneError};
 use super::reader::{Item, Section, Word};
 use super::units::Units;
 

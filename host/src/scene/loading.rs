@@ -1,12 +1,12 @@
 //! `[[step]]` and `[[cycle]]`: what the pair is put through.
 
-use std::path::PathBuf;
-
 use serde::Serialize;
 
+use super::bound::{Bound, LARGEST_COUNT};
 use super::contact::{Contact, Model, ModelKind, PRESCRIBED, SOLVED};
-use super::error::{Bound, Problem, SceneError};
-use super::reader::{Item, MOST, Section, Word};
+use super::drive::{Drive, Sliding};
+use super::error::{Problem, SceneError};
+use super::reader::{Item, Section, Word};
 use super::tree::join;
 use super::units::Units;
 
@@ -35,46 +35,6 @@ pub struct Step {
     /// What goes linearly from its value at the end of the step before (0 before the first).
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ramp: Vec<Quantity>,
-}
-
-/// What presses the bodies together: `load`, `approach` or `pressure`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Drive {
-    /// Total load, not negative; per length in 2-D.
-    Load(f64),
-    /// Rigid-body approach.
-    Approach(f64),
-    /// The same contact pressure at every point, not negative; prescribed scenes without a history.
-    Pressure(f64),
-}
-
-/// What slides: `velocity`, or `stroke` with `frequency`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Sliding {
-    /// Sliding velocity, whose sign says nothing about wear.
-    Velocity {
-        /// One for all points or one for each.
-        velocity: Field,
-    },
-    /// Back and forth at the constant speed 2 * stroke * frequency.
-    Stroke {
-        /// One-way travel, twice the amplitude.
-        stroke: f64,
-        /// Full turns per time.
-        frequency: f64,
-    },
-}
-
-/// A number for all points or a file with one for each.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Field {
-    /// The same everywhere.
-    Uniform(f64),
-    /// From a file.
-    File(PathBuf),
 }
 
 /// What a ramp can change; the names are the keys of a step.
@@ -133,29 +93,63 @@ struct Setting<'a> {
 impl Loading {
     /// Reads the loading in written order. A step written after a cycle becomes a cycle of one, so that the order is
     /// steps first, cycles after, and survives formats that keep no order between keys.
-    pub(super) fn read(root: &Section<'_>, contact: &Contact, units: &Units) -> Result<Self, SceneError> {
-        let history = matches!(&contact.model, Model::Prescribed(prescribed) if prescribed.history.is_some());
-        let setting = Setting { model: contact.model.kind(), history, units };
-        let steps = root.get("step").map(|item| item.list("load steps, [[step]]")).transpose()?.unwrap_or_default();
-        let cycles = root.get("cycle").map(|item| item.list("cycles, [[cycle]]")).transpose()?.unwrap_or_default();
+    pub(super) fn read(
+        root: &Section<'_>,
+        contact: &Contact,
+        units: &Units,
+    ) -> Result<Self, SceneError> {
+        let history =
+            matches!(&contact.model, Model::Prescribed(prescribed) if prescribed.history.is_some());
+        let setting = Setting {
+            model: contact.model.kind(),
+            history,
+            units,
+        };
+        let steps = root
+            .get("step")
+            .map(|item| item.list("load steps, [[step]]"))
+            .transpose()?
+            .unwrap_or_default();
+        let cycles = root
+            .get("cycle")
+            .map(|item| item.list("cycles, [[cycle]]"))
+            .transpose()?
+            .unwrap_or_default();
         if steps.is_empty() && cycles.is_empty() && !history {
             return Err(root.missing("step", "because nothing else says what happens"));
         }
-        let mut loading = Self { steps: Vec::new(), cycles: Vec::new(), moved: Vec::new() };
+        let mut loading = Self {
+            steps: Vec::new(),
+            cycles: Vec::new(),
+            moved: Vec::new(),
+        };
         // Whole lists from an override have no place in the file: steps come first then, cycles last.
         let place = |item: &Item<'_>, other| {
-            if item.node.place.text == 0 { item.node.place.span.start } else { other }
+            if item.node.place.text == 0 {
+                item.node.place.span.start
+            } else {
+                other
+            }
         };
-        let mut blocks: Vec<(usize, bool, &Item<'_>)> =
-            steps.iter().map(|item| (place(item, 0), false, item)).collect();
-        blocks.extend(cycles.iter().map(|item| (place(item, usize::MAX), true, item)));
+        let mut blocks: Vec<(usize, bool, &Item<'_>)> = steps
+            .iter()
+            .map(|item| (place(item, 0), false, item))
+            .collect();
+        blocks.extend(
+            cycles
+                .iter()
+                .map(|item| (place(item, usize::MAX), true, item)),
+        );
         blocks.sort_by_key(|(start, _, _)| *start);
         let mut before: Option<(String, Step)> = None;
         let last = blocks.len().saturating_sub(1);
         for (index, (_, is_cycle, item)) in blocks.into_iter().enumerate() {
             if is_cycle {
                 let cycle = Cycle::read(item, &setting, &mut before)?;
-                loading.moved.push((item.path.clone(), join("cycle", &loading.cycles.len().to_string())));
+                loading.moved.push((
+                    item.path.clone(),
+                    join("cycle", &loading.cycles.len().to_string()),
+                ));
                 loading.cycles.push(cycle);
                 continue;
             }
@@ -166,8 +160,14 @@ impl Loading {
             if loading.cycles.is_empty() {
                 loading.steps.push(step);
             } else {
-                loading.moved.push((item.path.clone(), format!("cycle.{}.step.0", loading.cycles.len())));
-                loading.cycles.push(Cycle { count: 1, steps: vec![step] });
+                loading.moved.push((
+                    item.path.clone(),
+                    format!("cycle.{}.step.0", loading.cycles.len()),
+                ));
+                loading.cycles.push(Cycle {
+                    count: 1,
+                    steps: vec![step],
+                });
             }
         }
         Ok(loading)
@@ -175,16 +175,26 @@ impl Loading {
 }
 
 impl Cycle {
-    fn read(item: &Item<'_>, setting: &Setting<'_>, before: &mut Option<(String, Step)>) -> Result<Self, SceneError> {
+    fn read(
+        item: &Item<'_>,
+        setting: &Setting<'_>,
+        before: &mut Option<(String, Step)>,
+    ) -> Result<Self, SceneError> {
         let section = item.section()?;
         section.keys(&[("count", &[]), ("step", &[])], setting.model)?;
-        let count = section.need("count")?.count(1, MOST)?;
-        let items =
-            section.get("step").map(|item| item.list("load steps, [[cycle.step]]")).transpose()?.unwrap_or_default();
+        let count = section.need("count")?.count(1, LARGEST_COUNT)?;
+        let items = section
+            .get("step")
+            .map(|item| item.list("load steps, [[cycle.step]]"))
+            .transpose()?
+            .unwrap_or_default();
         if items.is_empty() && !setting.history {
             return Err(section.missing("step", "because nothing else says what repeats"));
         }
-        let steps = items.iter().map(|item| Step::read(item, setting, false)).collect::<Result<Vec<_>, _>>()?;
+        let steps = items
+            .iter()
+            .map(|item| Step::read(item, setting, false))
+            .collect::<Result<Vec<_>, _>>()?;
         for (index, (item, step)) in items.iter().zip(&steps).enumerate() {
             step.check_ramp(item, before.as_ref())?;
             // The first step of a cycle also comes after the last one.
@@ -227,13 +237,26 @@ impl Step {
         let temperatures = setting.units.temperatures();
         Ok(Self {
             duration,
-            drive: Drive::read(&section, setting)?,
+            drive: Drive::read(&section, setting.model, setting.history)?,
             sliding: Sliding::read(&section)?,
-            stick: section.get("stick").map(|item| item.number(Bound::AtLeast(0.0))).transpose()?,
-            temperature: section.get("temperature").map(|item| item.number(temperatures)).transpose()?,
-            friction: section.get("friction").map(|item| item.number(Bound::AtLeast(0.0))).transpose()?,
+            stick: section
+                .get("stick")
+                .map(|item| item.number(Bound::AtLeast(0.0)))
+                .transpose()?,
+            temperature: section
+                .get("temperature")
+                .map(|item| item.number(temperatures))
+                .transpose()?,
+            friction: section
+                .get("friction")
+                .map(|item| item.number(Bound::AtLeast(0.0)))
+                .transpose()?,
             ramp: match section.get("ramp") {
-                Some(item) => item.list("a list of keys")?.iter().map(Item::word).collect::<Result<_, _>>()?,
+                Some(item) => item
+                    .list("a list of keys")?
+                    .iter()
+                    .map(Item::word)
+                    .collect::<Result<_, _>>()?,
                 None => Vec::new(),
             },
         })
@@ -252,71 +275,34 @@ impl Step {
     }
 
     /// A ramp needs both its ends: this step and, unless it is the first, the step before give the quantity.
-    fn check_ramp(&self, item: &Item<'_>, before: Option<&(String, Self)>) -> Result<(), SceneError> {
+    fn check_ramp(
+        &self,
+        item: &Item<'_>,
+        before: Option<&(String, Self)>,
+    ) -> Result<(), SceneError> {
         for &quantity in &self.ramp {
             let key = join(&item.path, "ramp");
             let name = quantity.word().to_owned();
             if !self.gives(quantity) {
-                return Err(item.section()?.error("ramp", Problem::RampWithoutEnd { key, quantity: name }));
+                return Err(item.section()?.error(
+                    "ramp",
+                    Problem::RampWithoutEnd {
+                        key,
+                        quantity: name,
+                    },
+                ));
             }
             if let Some((path, step)) = before
                 && !step.gives(quantity)
             {
-                let problem = Problem::RampWithoutStart { key, quantity: name, before: path.clone() };
+                let problem = Problem::RampWithoutStart {
+                    key,
+                    quantity: name,
+                    before: path.clone(),
+                };
                 return Err(item.section()?.error("ramp", problem));
             }
         }
         Ok(())
-    }
-}
-
-impl Drive {
-    fn read(section: &Section<'_>, setting: &Setting<'_>) -> Result<Option<Self>, SceneError> {
-        section.at_most_one(&["load", "approach"])?;
-        if let Some(item) = section.get("load") {
-            return item.number(Bound::AtLeast(0.0)).map(|load| Some(Self::Load(load)));
-        }
-        if let Some(item) = section.get("approach") {
-            return item.number(Bound::Finite).map(|approach| Some(Self::Approach(approach)));
-        }
-        if let Some(item) = section.get("pressure") {
-            if setting.history {
-                let first = "contact.history".to_owned();
-                return Err(section.error("pressure", Problem::Both { first, second: item.path }));
-            }
-            return item.number(Bound::AtLeast(0.0)).map(|pressure| Some(Self::Pressure(pressure)));
-        }
-        match setting.model {
-            ModelKind::Prescribed if setting.history => Ok(None),
-            ModelKind::Prescribed => Err(section.missing("pressure", "because there is no `contact.history`")),
-            _ => Err(section.missing("load` or `approach", "to press the bodies together")),
-        }
-    }
-}
-
-impl Sliding {
-    fn read(section: &Section<'_>) -> Result<Option<Self>, SceneError> {
-        section.at_most_one(&["velocity", "stroke"])?;
-        section.at_most_one(&["velocity", "frequency"])?;
-        if let Some(item) = section.get("velocity") {
-            let velocity = match item.number(Bound::Finite) {
-                Ok(velocity) => Field::Uniform(velocity),
-                Err(error) if matches!(*error.problem, Problem::WrongType { .. }) => match item.text() {
-                    Ok(_) => Field::File(item.path()?),
-                    Err(_) => return Err(item.wrong("a number or the path of a file")),
-                },
-                Err(error) => return Err(error),
-            };
-            return Ok(Some(Self::Velocity { velocity }));
-        }
-        match (section.get("stroke"), section.get("frequency")) {
-            (None, None) => Ok(None),
-            (Some(item), None) => Err(section.error("stroke", Problem::Alone { key: item.path, partner: "frequency" })),
-            (None, Some(item)) => Err(section.error("frequency", Problem::Alone { key: item.path, partner: "stroke" })),
-            (Some(stroke), Some(frequency)) => Ok(Some(Self::Stroke {
-                stroke: stroke.number(Bound::AtLeast(0.0))?,
-                frequency: frequency.number(Bound::AtLeast(0.0))?,
-            })),
-        }
     }
 }

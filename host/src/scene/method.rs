@@ -2,9 +2,10 @@
 
 use serde::{Serialize, Serializer};
 
+use super::bound::{Bound, LARGEST_COUNT};
 use super::contact::{ModelKind, SOLVED};
-use super::error::{Bound, SceneError};
-use super::reader::{MOST, Section, Word};
+use super::error::SceneError;
+use super::reader::{Section, Word};
 
 /// How wear depth is advanced in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -143,7 +144,7 @@ impl Integrator {
         section.at_most_one(&["tolerance", "substeps"])?;
         let accuracy = match (section.get("tolerance"), section.get("substeps")) {
             (Some(item), _) => Accuracy::Tolerance(item.number(Bound::Between(0.0, 1.0))?),
-            (None, Some(item)) => Accuracy::Substeps(item.count(1, MOST)?),
+            (None, Some(item)) => Accuracy::Substeps(item.count(1, LARGEST_COUNT)?),
             (None, None) => Accuracy::default(),
         };
         Ok(Self {
@@ -156,6 +157,11 @@ impl Integrator {
 }
 
 impl Scaling {
+    /// Whether the scene is silent about it.
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
     /// Safety factor of the public documents.
     pub const SAFETY: f64 = 0.1;
     /// Largest factor of the public documents.
@@ -172,6 +178,11 @@ impl Scaling {
 }
 
 impl Stop {
+    /// Whether the scene is silent about it.
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
     pub(super) fn read(section: &Section<'_>, model: ModelKind) -> Result<Self, SceneError> {
         section.keys(&[("wear_depth", &[]), ("wear_volume", &[])], model)?;
         let positive = |key: &str| section.get(key).map(|item| item.number(Bound::Above(0.0))).transpose();

@@ -2,9 +2,11 @@
 //! A section of the file is a file here, and it holds both its types and how they are read.
 //! What a scene means (which law, which points, which substeps) is the plan's; nothing here opens a file but the scene.
 
+mod bound;
 mod constants;
 mod contact;
 mod document;
+mod drive;
 mod error;
 mod geometry;
 mod law;
@@ -12,6 +14,7 @@ mod loading;
 mod method;
 mod output;
 mod overrides;
+mod phrase;
 mod place;
 mod reader;
 mod tree;
@@ -20,13 +23,15 @@ mod units;
 #[cfg(test)]
 mod tests;
 
+pub use bound::Bound;
 pub use constants::{Constants, TableRow};
 pub use contact::{Body, Boundary, Contact, Elasticity, Foundation, HalfSpace, Model, ModelKind, Prescribed};
 pub use document::Scene;
-pub use error::{Bound, Problem, SceneError};
+pub use drive::{Drive, Field, Sliding};
+pub use error::{Problem, SceneError};
 pub use geometry::{Grid, Shape, Surface};
 pub use law::{Basis, Law, Mode};
-pub use loading::{Cycle, Drive, Field, Quantity, Sliding, Step};
+pub use loading::{Cycle, Quantity, Step};
 pub use method::{Accuracy, BeyondLimit, Integrator, Method, Scaling, ScalingKind, Stop};
 pub use output::{Every, Format, Output, Reference, Target};
 pub use overrides::Override;

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use serde::{Serialize, Serializer};
 
+use super::bound::{Bound, LARGEST_COUNT};
 use super::contact::ModelKind;
-use super::error::{Bound, Problem, SceneError};
-use super::reader::{MOST, Section, Word};
+use super::error::{Problem, SceneError};
+use super::reader::{Section, Word};
 
 /// `[output]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -129,7 +130,7 @@ impl Every {
             return match item.text() {
                 Ok(word) if word == "end" => Ok(Self::End),
                 Ok(word) => Err(item.unknown_word(&word, &["end"])),
-                Err(_) => match item.count(1, MOST) {
+                Err(_) => match item.count(1, LARGEST_COUNT) {
                     Err(error) if matches!(*error.problem, Problem::WrongType { .. }) => {
                         Err(item.wrong("\"end\" or a number of steps"))
                     }

@@ -62,9 +62,15 @@ impl Location {
 
     /// The source line underlined below `title`, with `label` beside the line; `color` for terminals.
     pub fn render(&self, title: &str, label: &str, color: bool) -> String {
+        let mark = AnnotationKind::Primary.span(self.visible());
+        let mark = if label.is_empty() {
+            mark
+        } else {
+            mark.label(label)
+        };
         let snippet = Snippet::source(self.source.text.as_str())
             .path(self.source.name.as_str())
-            .annotation(AnnotationKind::Primary.span(self.visible()).label(label));
+            .annotation(mark);
         let report = [Level::ERROR.primary_title(title).element(snippet)];
         renderer(color).render(&report)
     }
@@ -117,6 +123,7 @@ impl<E: fmt::Display> Located<E> {
     pub fn render(&self, color: bool) -> String {
         let title = self.problem.to_string();
         match &self.location {
+            Some(location) if says(&title, location.key()) => location.render(&title, "", color),
             Some(location) => location.render(&title, location.key(), color),
             None => renderer(color).render(&[Group::with_title(Level::ERROR.primary_title(title))]),
         }
@@ -125,9 +132,10 @@ impl<E: fmt::Display> Located<E> {
 
 impl<E: fmt::Display> fmt::Display for Located<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.problem)?;
+        let problem = self.problem.to_string();
+        f.write_str(&problem)?;
         match &self.location {
-            Some(location) if location.key.is_empty() => write!(f, ", at {location}"),
+            Some(location) if says(&problem, location.key()) => write!(f, ", at {location}"),
             Some(location) => write!(f, ", at {location} (`{}`)", location.key),
             None => Ok(()),
         }
@@ -138,6 +146,11 @@ impl<E: std::error::Error + 'static> std::error::Error for Located<E> {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         self.problem.source()
     }
+}
+
+/// Whether a message names the key already, so that it need not be named twice.
+fn says(message: &str, key: &str) -> bool {
+    key.is_empty() || message.contains(&format!("`{key}`"))
 }
 
 fn renderer(color: bool) -> Renderer {

@@ -2,8 +2,9 @@
 
 use serde::{Serialize, Serializer};
 
+use super::bound::Bound;
 use super::contact::ModelKind;
-use super::error::{Bound, SceneError};
+use super::error::SceneError;
 use super::reader::{Item, Section};
 
 /// Lengths and their sizes in metres.
