@@ -1,0 +1,5 @@
+//! What was asked.
+pub mod documented;
+mod law;
+
+pub use law::{Basis, Mode};
