@@ -13,6 +13,7 @@ mod note;
 mod parameters;
 mod problem;
 mod reader;
+mod row;
 mod wear_table;
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use super::command::{Data, FieldValue, MOST_CONSTANTS, OpenTable, TableOption, V
 use super::deck::{LawOption, Scaling, ScalingKind, TableRow};
 use super::lexer::Span;
 use super::problem::{Fault, Problem};
+use super::row::Row;
 use crate::scene::documented::{Controls, ControlsError, DOCUMENTED_CONSTANTS, controls};
 
 /// The documented defaults of the scaling constants.
@@ -48,26 +49,6 @@ pub(super) struct WearTable {
     waiting: Vec<FieldValue>,
     first_field: Option<FieldValue>,
     next_location: usize,
-}
-
-#[derive(Debug)]
-struct Row {
-    time: Option<f64>,
-    temperature: Option<f64>,
-    constants: Vec<Option<(f64, Span)>>,
-    span: Span,
-}
-
-impl Row {
-    fn values(&self) -> Vec<Option<f64>> {
-        let value = |c: &Option<(f64, Span)>| c.map(|(value, _)| value);
-        self.constants.iter().map(value).collect()
-    }
-
-    fn span_of(&self, location: usize) -> Span {
-        let constant = self.constants.get(location - 1).copied().flatten();
-        constant.map_or(self.span, |(_, span)| span)
-    }
 }
 
 impl WearTable {
@@ -187,15 +168,15 @@ impl WearTable {
         let waiting = std::mem::take(&mut self.waiting);
         let place = waiting.last().map_or(span, |v| v.span);
         if let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) {
-            if variables(first) != variables(&row) {
+            if first.variables() != row.variables() {
                 let problem = Problem::OtherVariables {
-                    found: variables(&row).to_owned(),
-                    expected: variables(first).to_owned(),
+                    found: row.variables().to_owned(),
+                    expected: first.variables().to_owned(),
                 };
                 return Err(Fault::new(problem, place).beside(first.span, "the first constants"));
             }
-            if let Some(&earlier) = self.row_at.get(&key(&row)) {
-                let fault = Fault::new(Problem::Repeats { point: point(&row) }, place);
+            if let Some(&earlier) = self.row_at.get(&row.key()) {
+                let fault = Fault::new(Problem::Repeats { point: row.point() }, place);
                 return Err(fault.beside(self.rows[earlier].span, "the constants there"));
             }
             let time_first = (last.time, last.temperature) < (row.time, row.temperature);
@@ -221,7 +202,7 @@ impl WearTable {
                 }
             }
         }
-        self.row_at.insert(key(&row), self.rows.len());
+        self.row_at.insert(row.key(), self.rows.len());
         self.rows.push(row);
         Ok(())
     }
@@ -311,7 +292,7 @@ impl WearTable {
         for row in &self.rows {
             let given = |location: &usize| matches!(row.constants.get(location - 1), Some(Some(_)));
             if let Some(location) = (1..=least).find(|location| !given(location)) {
-                let place = match point(row) {
+                let place = match row.point() {
                     at if at.is_empty() => at,
                     at => format!(" at {at}"),
                 };
@@ -351,9 +332,9 @@ impl WearTable {
                 constants: Vec::new(),
                 span: self.open.span,
             };
-            if !self.row_at.contains_key(&key(&missing)) {
+            if !self.row_at.contains_key(&missing.key()) {
                 let problem = Problem::IncompleteGrid {
-                    missing: point(&missing),
+                    missing: missing.point(),
                     times: times.len(),
                     temperatures: temperatures.len(),
                     rows: self.rows.len(),
@@ -365,13 +346,7 @@ impl WearTable {
     }
 
     fn into_rows(self) -> Vec<TableRow> {
-        let row = |row: Row| TableRow {
-            time: row.time,
-            temperature: row.temperature,
-            constants: row.values(),
-            span: row.span,
-        };
-        self.rows.into_iter().map(row).collect()
+        self.rows.into_iter().map(TableRow::from).collect()
     }
 }
 
@@ -379,28 +354,4 @@ fn no_data_at(unused: &FieldValue) -> Box<Fault> {
     let variable = unused.variable.name().to_owned();
     let value = unused.value;
     Fault::new(Problem::NoDataAtPoint { variable, value }, unused.span)
-}
-
-/// Bits that are equal where the points are; no finite number has the bits that stand for "none".
-fn key(row: &Row) -> [u64; 2] {
-    // adding zero turns -0 into 0
-    let bits = |value: Option<f64>| value.map_or(u64::MAX, |value| (value + 0.0).to_bits());
-    [bits(row.time), bits(row.temperature)]
-}
-
-fn variables(row: &Row) -> &'static str {
-    match (row.time, row.temperature) {
-        (None, None) => "without a field value",
-        (Some(_), None) => "by time",
-        (None, Some(_)) => "by temperature",
-        (Some(_), Some(_)) => "by time and temperature",
-    }
-}
-
-fn point(row: &Row) -> String {
-    let named = [("time", row.time), ("temperature", row.temperature)];
-    let parts = named
-        .iter()
-        .filter_map(|(name, value)| value.map(|value| format!("{name} = {value}")));
-    parts.collect::<Vec<_>>().join(", ")
 }
