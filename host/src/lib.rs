@@ -1,4 +1,3 @@
 //! Skeleton.
-
-pub mod integrator;
+pub mod apdl;
 pub mod scene;
