@@ -1,1 +1,3 @@
 //! Skeleton.
+pub mod output;
+pub mod record;
