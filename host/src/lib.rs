@@ -1,3 +1,3 @@
 //! Skeleton.
-pub mod apdl;
-pub mod scene;
+pub mod output;
+pub mod record;

@@ -1,0 +1,19 @@
+//! Readers of a record: the history, the fields and the plot of a run as files that appear whole.
+//! Every writer takes plain data and a path; a file is written aside and renamed, so no reader ever
+//! meets half of one, and a field goes to its file in pieces, never as a second array.
+//! What the numbers mean, the report of a run and anything printed are not here.
+
+pub mod csv;
+mod error;
+mod fields;
+mod little_endian;
+pub mod npz;
+pub mod plot;
+pub mod vtk;
+pub mod whole;
+
+pub use csv::write_history;
+pub use error::OutputError;
+pub use fields::{FieldFormat, FieldSeries, write_fields};
+pub use plot::{Figure, write_plot};
+pub use whole::{WholeFolder, check_folder, write_file};

@@ -1,0 +1,17 @@
+//! What happened in a run, as plain data: a row of quantities per accepted step, fields at chosen
+//! times, where their points lie, and the profiles a plot shows.
+//! Nothing here computes physics, and nothing here knows a file format: `solve` fills these types
+//! and `output` reads them.
+//! Large arrays are borrowed or owned alike, so a field reaches a file without a copy of its own.
+
+mod field;
+mod geometry;
+mod history;
+mod profile;
+mod units;
+
+pub use field::{Field, FieldData, Snapshot};
+pub use geometry::{Geometry, Grid, PointIds, Points};
+pub use history::{History, HistoryRow};
+pub use profile::{Line, Profile};
+pub use units::Units;
