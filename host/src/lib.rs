@@ -1,3 +1,3 @@
 //! Skeleton.
-pub mod output;
-pub mod record;
+
+pub mod law;
