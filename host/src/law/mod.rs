@@ -1,8 +1,22 @@
 //! Everything about loading and calling a wear law.
 //!
-//! Here are the facts a library file shows before any of its code runs, the guard of the floating-point
-//! environment, and the way from sources to a library. Contact, wear and scenes are not here.
+//! Here are the facts of a library file, the entries a law comes from, its description, the batches it is called with
+//! and the checks on what it answers, in this process or in a worker of its own. What a law's inputs are computed
+//! from is not here: a caller hands over columns of numbers.
 
-pub mod build;
-pub mod file_facts;
-pub mod float_env;
+pub mod batch;
+pub mod constants;
+pub mod descriptor;
+pub mod entry;
+pub mod evaluation;
+pub mod fields;
+mod number_text;
+pub mod values;
+
+pub use batch::{Batch, BatchBuilder, BatchError, Outputs};
+pub use constants::{ConstantsError, GivenConstants};
+pub use descriptor::{Degree, LawDescriptor, Quantity};
+pub use entry::{Embedded, Entry};
+pub use evaluation::{EvaluateError, Evaluation, Evaluator, NamedValues, PointInputs};
+pub use fields::{Claim, Claims, Field, Fields, Flag, Flags, OutputItem, OutputItems};
+pub use values::{CallNumbers, Indices, UnitSizes, Values};

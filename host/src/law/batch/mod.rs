@@ -1,0 +1,171 @@
+//! The points of one call: columns over the caller's arrays, laid out as the ABI wants them.
+#![allow(unsafe_code)] // reason: promises that the shared slices behind the raw pointers may cross threads.
+
+use std::marker::PhantomData;
+use std::ops::Range;
+use std::sync::Arc;
+
+use thiserror::Error;
+use wearlaw_plugin_api::abi;
+
+use super::descriptor::LawDescriptor;
+
+mod builder;
+mod columns;
+mod outputs;
+
+pub use builder::BatchBuilder;
+use columns::{advance, behind};
+pub(in crate::law) use columns::{column_of, index_column_of};
+pub use outputs::Outputs;
+
+/// Why a batch cannot be built.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum BatchError {
+    /// A needed field was not given.
+    #[error("law `{law}` needs `{field}`, which was not given")]
+    Missing {
+        /// The law.
+        law: String,
+        /// The field, constant, input or `state`.
+        field: String,
+    },
+    /// An array is too short or too long.
+    #[error("`{field}` has {found} values, expected {expected}")]
+    Length {
+        /// The field, constant, input or `state`.
+        field: String,
+        /// Length of the array.
+        found: usize,
+        /// What the points need.
+        expected: usize,
+    },
+    /// Fewer doubles from point to point than one point has.
+    #[error("`{field}` has a step of {step}, expected at least {width}")]
+    Step {
+        /// The field, constant, input or `state`.
+        field: String,
+        /// The step given.
+        step: usize,
+        /// Values of one point.
+        width: usize,
+    },
+    /// The kind of values does not fit the field.
+    #[error("`{field}` is a {found}, expected a {expected}")]
+    Kind {
+        /// The field.
+        field: String,
+        /// What was given.
+        found: &'static str,
+        /// What it takes.
+        expected: &'static str,
+    },
+    /// More or fewer constants or inputs than the law declares.
+    #[error("{found} {what} were given, law `{law}` declares {expected}")]
+    Count {
+        /// The law.
+        law: String,
+        /// `constants` or `inputs`.
+        what: &'static str,
+        /// How many were given.
+        found: usize,
+        /// How many the law declares.
+        expected: usize,
+    },
+}
+
+/// What one call is given: the points of one surface over one substep, borrowed from the caller's arrays.
+///
+/// It is cheap to clone and to cut into ranges, and may be read from several threads at once.
+#[derive(Clone)]
+pub struct Batch<'a> {
+    store: Arc<Store<'a>>,
+    first: usize,
+    points: usize,
+}
+
+struct Store<'a> {
+    descriptor: &'a LawDescriptor,
+    /// Columns begin at the first point of the whole batch; `constants` and `inputs` are set per call.
+    view: abi::View,
+    /// Constants, then inputs.
+    columns: Vec<abi::Column>,
+    columns_are_uniform: bool,
+    _numbers: Vec<f64>,
+    _indices: Vec<i64>,
+    borrowed: PhantomData<(&'a [f64], &'a [i64])>,
+}
+
+// SAFETY: every pointer in `view` and `columns` leads into `_numbers`, `_indices` or a slice that is borrowed as shared
+// for 'a; all of them are plain numbers that nobody writes while the store lives, and `Batch` only reads through them.
+unsafe impl Send for Store<'_> {}
+// SAFETY: as for Send: shared reading of numbers that nobody writes.
+unsafe impl Sync for Store<'_> {}
+
+impl<'a> Batch<'a> {
+    /// Begins a batch of `points` points for the law of `descriptor`.
+    pub fn builder(descriptor: &'a LawDescriptor, points: usize) -> BatchBuilder<'a> {
+        BatchBuilder::new(descriptor, points)
+    }
+
+    /// Number of points.
+    pub fn points(&self) -> usize {
+        self.points
+    }
+
+    /// Index of its first point in the batch that was built.
+    pub fn first(&self) -> usize {
+        self.first
+    }
+
+    /// The law that it was built for.
+    pub fn descriptor(&self) -> &'a LawDescriptor {
+        self.store.descriptor
+    }
+
+    /// The points `range`, counted from the first point of this batch, without copying a number.
+    ///
+    /// # Panics
+    /// If the range ends behind the last point or before its own start, as indexing a slice does.
+    pub fn range(&self, range: Range<usize>) -> Batch<'a> {
+        assert!(
+            range.start <= range.end && range.end <= self.points,
+            "{range:?} of {} points",
+            self.points
+        );
+        Batch {
+            store: Arc::clone(&self.store),
+            first: self.first + range.start,
+            points: range.len(),
+        }
+    }
+
+    /// The ABI's view of `range` (counted in this batch); `scratch` must outlive the use of its pointers.
+    pub(super) fn view(
+        &self,
+        range: Range<usize>,
+        request: i64,
+        scratch: &mut Vec<abi::Column>,
+    ) -> abi::View {
+        let mut view = self.store.view;
+        let first = self.first + range.start;
+        view.points = range.len() as i64;
+        view.request = request;
+        let mut columns = self.store.columns.as_slice();
+        if first != 0 {
+            for field in self.descriptor().fields().iter() {
+                advance(&mut view, field, first);
+            }
+            view.state = behind(view.state, first);
+            if !self.store.columns_are_uniform {
+                scratch.clear();
+                scratch.extend(columns.iter().map(|column| behind(*column, first)));
+                columns = scratch;
+            }
+        }
+        let (constants, inputs) = columns.split_at(view.constant_count as usize);
+        view.constants = constants.as_ptr();
+        view.inputs = inputs.as_ptr();
+        view
+    }
+}
