@@ -1,3 +1,12 @@
-//! Skeleton.
+//! Wear simulation with laws that are shared libraries.
+//!
+//! Data flows one way: [`scene`] (what was asked), [`plan`] (what will be done), [`solve`] (the only loop), [`record`]
+//! (what happened), [`output`] (its readers). [`law`] loads and calls wear laws, [`contact`] gives what drives them,
+//! [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`reference`] holds exact answers.
 
+pub mod apdl;
+pub mod integrator;
 pub mod law;
+pub mod output;
+pub mod record;
+pub mod scene;

@@ -5,11 +5,14 @@
 //! from is not here: a caller hands over columns of numbers.
 
 pub mod batch;
+pub mod build;
 pub mod constants;
 pub mod descriptor;
 pub mod entry;
 pub mod evaluation;
 pub mod fields;
+pub mod file_facts;
+pub mod float_env;
 mod number_text;
 pub mod values;
 

@@ -42,7 +42,6 @@ macro_rules! export_laws {
 }
 
 /// Exports nothing: this crate was built without the feature `layout`.
-#[cfg(not(feature = "layout"))]
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __export_layout {
