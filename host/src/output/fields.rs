@@ -74,6 +74,12 @@ impl FieldSeries {
         })
     }
 
+    /// Goes on with a series whose earlier VTK files (`vtk_files` of the run that was stopped) are
+    /// or will be in the same folder.
+    pub fn resume(&mut self, vtk_files: impl IntoIterator<Item = (f64, String)>) {
+        self.vtk_files.splice(0..0, vtk_files);
+    }
+
     /// Writes the fields of one time in every format; a step written before is replaced.
     ///
     /// # Errors
@@ -181,6 +187,7 @@ mod tests {
         let folder = place.path().join("fields");
         let formats = [FieldFormat::Csv, FieldFormat::Npz, FieldFormat::Vtk];
         let mut series = FieldSeries::begin(&folder, &formats).unwrap();
+        series.resume([(-1.0, "fields-earlier.vtp".to_owned())]);
         for (time, step) in [(0.0, 0), (0.5, 12)] {
             let fields = vec![Field::scalar("wear", vec![time; 3], "m")];
             series
@@ -204,6 +211,7 @@ mod tests {
         ];
         assert_eq!(names, expected);
         let pvd = fs::read_to_string(folder.join("fields.pvd")).unwrap();
+        assert!(pvd.find("fields-earlier.vtp") < pvd.find("fields-000000.vtp"));
         assert!(pvd.contains("timestep=\"0.5\"") && pvd.contains("file=\"fields-000012.vtp\""));
     }
 

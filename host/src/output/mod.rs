@@ -16,4 +16,4 @@ pub use csv::write_history;
 pub use error::OutputError;
 pub use fields::{FieldFormat, FieldSeries, write_fields};
 pub use plot::{Figure, write_plot};
-pub use whole::{WholeFolder, check_folder, write_file};
+pub use whole::{WholeFolder, check_folder, write_file, write_file_synced};

@@ -4,7 +4,7 @@
 //! `u8`, C order. Nothing is compressed: wear fields hardly shrink, and a reader can map them.
 
 use super::little_endian::{write_counts, write_floats};
-use crate::record::{Geometry, PointIds, Snapshot};
+use crate::record::{Geometry, Snapshot};
 use std::io::{self, Seek, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
@@ -28,7 +28,7 @@ pub(super) fn write_arrays(
     let mut shape = vec![count];
     match geometry {
         Geometry::Points(points) => {
-            if !matches!(points.ids, PointIds::Counted { first: 0, .. }) {
+            if !points.ids.are_indices() {
                 archive.counts("point", &[count], (0..count).map(|i| points.ids.id(i)))?;
             }
             if let Some(at) = &points.coordinates {
@@ -118,7 +118,7 @@ fn npy_header(kind: &str, shape: &[usize]) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::{Field, Grid, Points};
+    use crate::record::{Field, Grid, PointIds, Points};
     use std::io::{Cursor, Read};
 
     /// Reads one array back: kind, shape as text, words.

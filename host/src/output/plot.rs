@@ -25,7 +25,7 @@ const SIZE: (u32, u32) = (1000, 700);
 /// the file then shows at the size of the figure.
 const FINE: u32 = 8;
 /// Longest title that fits one line.
-const TITLE: usize = 88;
+const TITLE: usize = 78;
 
 type Sheet<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type DrawingFailure = DrawingAreaErrorKind<std::io::Error>;
@@ -75,7 +75,7 @@ fn draw(figure: &Figure<'_>) -> Result<String, DrawingFailure> {
         Style::left(13.0, QUIET),
     )?;
     let columns = [(84.0, 484.0), (572.0, 972.0)];
-    let rows = [(120.0, 330.0), (434.0, 644.0)];
+    let rows = [(118.0, 326.0), (428.0, 636.0)];
     for (i, panel) in panels(figure).iter().enumerate() {
         let ((left, right), (top, bottom)) = (columns[i % 2], rows[i / 2]);
         panel.draw(
@@ -141,7 +141,7 @@ fn profiles(profile: &Profile<'_>, units: &Units) -> [Panel; 2] {
             curve.dots = profile.axis == "point";
         }
         let name = if profile.axis == "point" {
-            "Point number"
+            axis::COUNT
         } else {
             &profile.axis
         };

@@ -41,7 +41,9 @@ fn write_points(
          NumberOfStrips=\"0\" NumberOfPolys=\"0\">"
     )?;
     writeln!(to, "<PointData{}>", active(&snapshot.fields))?;
-    declare(to, "Int64", "point", 1, "", offsets.next(count))?;
+    if !points.ids.are_indices() {
+        declare(to, "Int64", "point", 1, "", offsets.next(count))?;
+    }
     for field in &snapshot.fields {
         declare_field(to, field, &mut offsets)?;
     }
@@ -52,7 +54,9 @@ fn write_points(
     declare(to, "Int64", "offsets", 1, "", offsets.next(cells))?;
     writeln!(to, "</Verts>\n</Piece>\n</PolyData>")?;
     begin_blocks(to)?;
-    write_block_of_counts(to, count, (0..count).map(|i| points.ids.id(i)))?;
+    if !points.ids.are_indices() {
+        write_block_of_counts(to, count, (0..count).map(|i| points.ids.id(i)))?;
+    }
     for field in &snapshot.fields {
         write_block(to, field.data.len(), field.data.iter().copied())?;
     }

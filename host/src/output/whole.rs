@@ -1,10 +1,11 @@
 //! Results that appear whole: written aside, then renamed.
 //!
-//! A single file is synced before its rename, because a checkpoint is there for the machine that
-//! goes down. The files of a folder are not: a folder is whole against an interrupted program, and
-//! waiting for the disk to take large fields would cost more than the run.
+//! Whole means: against an interrupted or failing program. Only a checkpoint is also synced to the
+//! disk before its rename, because it is there for the machine that goes down; waiting for the disk
+//! to take large fields would cost more than the run.
 
 use super::OutputError;
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -22,8 +23,7 @@ const ASIDE: &str = ".partial-";
 /// Inside the folder written aside: the results it replaces, until they are all replaced.
 const REPLACED: &str = ".replaced";
 
-/// Writes the file `path` whole: `fill` writes it under another name beside it, then it is synced
-/// and renamed.
+/// Writes the file `path` whole: `fill` writes it under another name beside it, then it is renamed.
 ///
 /// # Errors
 /// `Io` with the path and the step that failed; then nothing is left of the file, and a file that
@@ -31,6 +31,25 @@ const REPLACED: &str = ".replaced";
 pub fn write_file(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    write_aside(path, fill, |_| Ok(()))
+}
+
+/// Writes the file `path` whole like `write_file`, on the disk before it has its name.
+///
+/// # Errors
+/// As `write_file`.
+pub fn write_file_synced(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    write_aside(path, fill, File::sync_all)
+}
+
+fn write_aside(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    settle: impl FnOnce(&File) -> io::Result<()>,
 ) -> Result<(), OutputError> {
     let mut builder = Builder::new();
     builder.prefix(ASIDE);
@@ -42,7 +61,7 @@ pub fn write_file(
     let mut writer = BufWriter::with_capacity(1 << 16, file);
     fill(&mut writer)
         .and_then(|()| writer.flush())
-        .and_then(|()| writer.get_ref().sync_all())
+        .and_then(|()| settle(writer.get_ref()))
         .map_err(OutputError::io("write", path))?;
     drop(writer);
     name.persist(path)
@@ -84,6 +103,7 @@ pub fn check_folder(path: &Path) -> Result<(), OutputError> {
 pub struct WholeFolder {
     target: PathBuf,
     aside: TempDir,
+    kept: BTreeSet<PathBuf>,
 }
 
 impl WholeFolder {
@@ -111,6 +131,7 @@ impl WholeFolder {
         Ok(Self {
             target: target.into(),
             aside,
+            kept: BTreeSet::new(),
         })
     }
 
@@ -120,7 +141,8 @@ impl WholeFolder {
         self.aside.path()
     }
 
-    /// Writes a single file at its final place while the run still goes on: a checkpoint.
+    /// Writes a single file at its final place (`name` is relative to it) while the run still goes
+    /// on, synced: a checkpoint.
     ///
     /// # Errors
     /// As `write_file`.
@@ -129,8 +151,16 @@ impl WholeFolder {
         name: &str,
         fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), OutputError> {
-        fs::create_dir_all(&self.target).map_err(OutputError::io("create", &self.target))?;
-        write_file(&self.target.join(name), fill)
+        let path = self.target.join(name);
+        let folder = parent(&path);
+        fs::create_dir_all(folder).map_err(OutputError::io("create", folder))?;
+        write_file_synced(&path, fill)
+    }
+
+    /// Keeps a file that is already at its final place as part of the new result, unless the new
+    /// result has one of this name: fields that a resumed run wrote before it was stopped.
+    pub fn keep(&mut self, name: impl Into<PathBuf>) {
+        self.kept.insert(name.into());
     }
 
     /// Makes the results appear at the target, in place of an earlier result; every file that no
@@ -162,6 +192,7 @@ impl WholeFolder {
         let (aside, target) = (self.aside.path(), self.target.as_path());
         let mut new = results_in(aside, |_| true)?;
         let mut old = results_in(target, is_result)?;
+        old.retain(|name| !self.kept.contains(name) || new.contains(name));
         old.sort_by_key(|name| name != Path::new(REPORT));
         new.sort_by_key(|name| name == Path::new(REPORT));
         let replaced = aside.join(REPLACED);

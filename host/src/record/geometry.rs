@@ -79,6 +79,12 @@ impl PointIds<'_> {
         }
     }
 
+    /// Whether the numbers are 0, 1, .., so that a file need not list them.
+    #[must_use]
+    pub fn are_indices(&self) -> bool {
+        matches!(self, PointIds::Counted { first: 0, .. })
+    }
+
     /// Number of the point at `index`, which is below `count`.
     #[must_use]
     pub fn id(&self, index: usize) -> u64 {

@@ -6,6 +6,9 @@ const SMALL: f64 = 1e-2;
 /// Below this the largest number of an axis is drawn as zero; powers of ten would leave the range.
 const NOTHING: f64 = 1e-290;
 
+/// The quantity that has no fractions.
+pub(super) const COUNT: &str = "Point number";
+
 /// One axis; positions are fractions of its length.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Axis {
@@ -62,7 +65,10 @@ impl Axis {
             // A single value: an axis from zero says more than one of no length.
             (low, high) = (low.min(0.0), high.max(0.0));
         }
-        let (step, decimals) = tick_step((high - low) / wanted as f64);
+        let (mut step, mut decimals) = tick_step((high - low) / wanted as f64);
+        if quantity == COUNT && step * factor < 1.0 {
+            (step, decimals) = (1.0 / factor, 0);
+        }
         let (first, last) = (
             (low / step - 1e-6).ceil() as i64,
             (high / step + 1e-6).floor() as i64,
@@ -215,6 +221,12 @@ mod tests {
             labels(&both),
             ["−100", "−80", "−60", "−40", "−20", "0", "20"]
         );
+    }
+
+    #[test]
+    fn point_numbers_have_no_fractions() {
+        let axis = Axis::spanning((COUNT, ""), [1.0, 3.0].into_iter(), 5);
+        assert_eq!(labels(&axis), ["1", "2", "3"]);
     }
 
     #[test]

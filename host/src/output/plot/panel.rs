@@ -98,8 +98,8 @@ impl Panel {
             .collect();
         let y = place.top - 16.0;
         for (i, curve) in named.iter().enumerate() {
-            let right = place.right - 72.0 * i as f64;
-            let (stroke, text) = (right - 64.0, right - 28.0);
+            let right = place.right - 84.0 * i as f64;
+            let (stroke, text) = (right - 67.0, right - 31.0);
             stroke_curve(sheet, &[(stroke, y), (stroke + 30.0, y)], curve.look)?;
             write(sheet, curve.name, (text, y), Style::left(13.0, INK))?;
         }

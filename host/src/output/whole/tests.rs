@@ -178,3 +178,26 @@ fn an_interrupted_run_leaves_its_checkpoint_and_can_be_followed() {
     put(&target.join(".partial-abc/.replaced/report.json"), "{}");
     check_folder(&target).unwrap();
 }
+
+#[test]
+fn a_resumed_run_keeps_the_fields_it_wrote_before() {
+    let place = tempfile::tempdir().unwrap();
+    let target = place.path().join("run.out");
+    let names = ["fields/fields-000001.csv", "fields/fields-000002.csv"];
+    result(&target, "first", &names).unwrap();
+    let mut folder = WholeFolder::begin(&target).unwrap();
+    folder
+        .write_now("fields/fields-000003.csv", |_| Ok(()))
+        .unwrap();
+    for step in 2..=3 {
+        folder.keep(format!("fields/fields-{step:06}.csv"));
+    }
+    put(&folder.path().join(REPORT), "second");
+    put(&folder.path().join(names[1]), "second");
+    folder.commit().unwrap();
+    assert_eq!(
+        listing(&target),
+        [names[1], "fields/fields-000003.csv", REPORT]
+    );
+    assert_eq!(read(&target.join(names[1])), "second");
+}
