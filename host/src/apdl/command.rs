@@ -152,7 +152,7 @@ pub(super) fn open_table(
     let least = i64::from(option == TableOption::User);
     let points = fields.whole(3, "NPTS of TB", (least, MOST_CONSTANTS as i64), parameters)?;
     Ok(OpenTable {
-        // blank MATID: the documented default of TB
+        // a blank material number means material 1 to the material commands of a deck
         material: material.unwrap_or(1),
         option,
         constants: points.map(|points| points as usize),
