@@ -6,3 +6,5 @@
 pub mod build;
 pub mod file_facts;
 pub mod float_env;
+#[cfg(feature = "layout-check")]
+pub mod layout_check;
