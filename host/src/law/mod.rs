@@ -13,6 +13,8 @@ pub mod evaluation;
 pub mod fields;
 pub mod file_facts;
 pub mod float_env;
+#[cfg(feature = "layout-check")]
+pub mod layout_check;
 mod number_text;
 pub mod values;
 
