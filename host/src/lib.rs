@@ -1,1 +1,3 @@
 //! Skeleton.
+pub mod contact;
+pub mod reference;
