@@ -5,8 +5,10 @@
 //! [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`reference`] holds exact answers.
 
 pub mod apdl;
+pub mod contact;
 pub mod integrator;
 pub mod law;
 pub mod output;
 pub mod record;
+pub mod reference;
 pub mod scene;
