@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::bound::Bound;
-use super::error::SceneError;
-use super::reader::{Section, Word};
+use super::error::{Problem, SceneError};
+use super::reader::{Key, Section, Word};
 
 /// The contact models by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -164,24 +164,32 @@ impl Elasticity {
     }
 }
 
+const KEYS: &[Key] = &[
+    ("model", &[]),
+    ("dimension", &[]),
+    ("friction", &[]),
+    ("history", PRESCRIBED),
+    ("stiffness", FOUNDATION),
+    ("tolerance", SOLVED),
+    ("modulus", HALFSPACE),
+    ("bodies", HALFSPACE),
+    ("boundary", HALFSPACE),
+    ("datum", HALFSPACE),
+];
+
 impl Contact {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, SceneError> {
-        let kind: ModelKind = section.need("model")?.word()?;
-        section.keys(
-            &[
-                ("model", &[]),
-                ("dimension", &[]),
-                ("friction", &[]),
-                ("history", PRESCRIBED),
-                ("stiffness", FOUNDATION),
-                ("tolerance", SOLVED),
-                ("modulus", HALFSPACE),
-                ("bodies", HALFSPACE),
-                ("boundary", HALFSPACE),
-                ("datum", HALFSPACE),
-            ],
-            kind,
-        )?;
+        let kind: ModelKind = match section.get("model") {
+            Some(item) => item.word()?,
+            // A misspelt `model` is the better thing to say; keys of some model cannot be judged yet.
+            None => match section.keys(KEYS, ModelKind::HalfSpace) {
+                Err(error) if matches!(*error.problem, Problem::UnknownKey { .. }) => {
+                    return Err(error);
+                }
+                _ => return Err(section.missing("model", "")),
+            },
+        };
+        section.keys(KEYS, kind)?;
         let dimension = section
             .get("dimension")
             .map(|item| item.count(2, 3))

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::phrase::Entries;
 use super::place::{Location, Source};
 
 /// A span in one of the texts; text 0 is the file, text `i + 1` is override `i`.
@@ -83,11 +84,7 @@ impl Node {
             Value::Float(float) => format!("the number {float:?}"),
             Value::Boolean(boolean) => format!("the boolean {boolean}"),
             Value::Datetime(datetime) => format!("the date {datetime}"),
-            Value::List(list) => format!(
-                "a list of {} {}",
-                list.len(),
-                if list.len() == 1 { "entry" } else { "entries" }
-            ),
+            Value::List(list) => format!("a list of {}", Entries(list.len())),
             Value::Table(_) => "a table".to_owned(),
         }
     }
