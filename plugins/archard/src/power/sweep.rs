@@ -2,10 +2,14 @@
 #![allow(unsafe_code)] // One call of a function compiled for AVX2 and FMA, after asking for both.
 
 use super::batch::Instructions;
+use super::double::Double;
 use super::exact;
-use super::kernel::{ABSENT, GENERAL, LINEAR, kind, lane};
+use super::kernel::{ABSENT, GENERAL, LINEAR, conclude, kind, logarithm};
 use super::linear;
 use super::scale::Scale;
+
+/// Points that go through the stages of a general power together.
+const STRIP: usize = 64;
 
 /// What a loop over points asks of its constants.
 pub(super) trait Constants: Copy {
@@ -19,8 +23,8 @@ pub(super) trait Constants: Copy {
     fn kinds(&self) -> (u8, u8);
     /// Whether [`Constants::kinds`] is wrong at point `i`.
     fn odd(&self, i: usize) -> bool;
-    /// Cuts what is behind the block, so that the compiler sees the lengths agree.
-    fn first(self, points: usize) -> Self;
+    /// The constants of points `start..start + len`, so that the compiler sees the lengths agree.
+    fn part(self, start: usize, len: usize) -> Self;
 }
 
 /// The same constants at every point.
@@ -34,12 +38,8 @@ pub(super) struct Uniform {
 
 impl Uniform {
     pub(super) fn new(m: f64, n: f64, c: Scale) -> Self {
-        Self {
-            m,
-            n,
-            c,
-            value: c.value(),
-        }
+        let value = c.value();
+        Self { m, n, c, value }
     }
 }
 
@@ -61,7 +61,7 @@ impl Constants for Uniform {
         false
     }
     #[inline(always)]
-    fn first(self, _: usize) -> Self {
+    fn part(self, _: usize, _: usize) -> Self {
         self
     }
 }
@@ -97,12 +97,12 @@ impl Constants for Each<'_> {
         kind(self.m[i]) != m || kind(self.n[i]) != n
     }
     #[inline(always)]
-    fn first(self, points: usize) -> Self {
+    fn part(self, start: usize, len: usize) -> Self {
         Self {
-            m: &self.m[..points],
-            n: &self.n[..points],
-            k: &self.k[..points],
-            h: &self.h[..points],
+            m: &self.m[start..start + len],
+            n: &self.n[start..start + len],
+            k: &self.k[start..start + len],
+            h: &self.h[start..start + len],
             ..self
         }
     }
@@ -158,7 +158,7 @@ fn run_any<C: Constants>(
     slope: Option<&mut [f64]>,
 ) {
     if constants.kinds() == (LINEAR, LINEAR) && slope.is_none() {
-        if sweep::<C, LINEAR, LINEAR, false>(p, v, constants, out, &mut []) {
+        if products::<C, LINEAR, LINEAR, false>(p, v, constants, out, &mut []) {
             finish(p, v, constants, out, slope);
         }
     } else {
@@ -176,17 +176,18 @@ fn choose<C: Constants>(
     mut slope: Option<&mut [f64]>,
 ) {
     macro_rules! by_kind {
-        ($($m:ident $n:ident),*) => {
+        ($($by:ident $m:ident $n:ident),*) => {
             match (constants.kinds(), slope.as_deref_mut()) {
-                $((($m, $n), None) => sweep::<C, $m, $n, false>(p, v, constants, out, &mut []),
-                (($m, $n), Some(slope)) => sweep::<C, $m, $n, true>(p, v, constants, out, slope),)*
+                $((($m, $n), None) => $by::<C, $m, $n, false>(p, v, constants, out, &mut []),
+                (($m, $n), Some(slope)) => $by::<C, $m, $n, true>(p, v, constants, out, slope),)*
                 _ => unreachable!("kind() knows no other kinds"),
             }
         };
     }
     let left = by_kind!(
-        GENERAL GENERAL, GENERAL LINEAR, LINEAR GENERAL, GENERAL ABSENT, ABSENT GENERAL,
-        LINEAR LINEAR, LINEAR ABSENT, ABSENT LINEAR, ABSENT ABSENT
+        sweep GENERAL GENERAL, sweep GENERAL LINEAR, sweep LINEAR GENERAL, sweep GENERAL ABSENT,
+        sweep ABSENT GENERAL, products LINEAR LINEAR, products LINEAR ABSENT,
+        products ABSENT LINEAR, products ABSENT ABSENT
     );
     if left || C::VARY {
         finish(p, v, constants, out, slope);
@@ -194,6 +195,9 @@ fn choose<C: Constants>(
 }
 
 /// Evaluates every point by the kernel of one pair of kinds; whether some are left unanswered.
+///
+/// The chain from a pressure to its increment is longer than a processor looks ahead, so a strip of
+/// points goes through it in three short loops, each with many points under way.
 #[inline(always)]
 fn sweep<C: Constants, const M: u8, const N: u8, const SLOPE: bool>(
     p: &[f64],
@@ -202,17 +206,72 @@ fn sweep<C: Constants, const M: u8, const N: u8, const SLOPE: bool>(
     out: &mut [f64],
     slope: &mut [f64],
 ) -> bool {
-    let points = out.len();
-    let (p, v, constants) = (&p[..points], &v[..points], constants.first(points));
-    let slope = &mut slope[..if SLOPE { points } else { 0 }];
     let mut left = 0u64;
-    for i in 0..points {
-        let o = if M == GENERAL || N == GENERAL {
-            let (m, n, c) = constants.at(i);
-            lane::<M, N>(p[i], v[i], m, n, c)
+    let [mut ah, mut al, mut bh, mut bl] = [[0.0; STRIP]; 4];
+    for start in (0..out.len()).step_by(STRIP) {
+        let len = STRIP.min(out.len() - start);
+        let (p, v) = (&p[start..start + len], &v[start..start + len]);
+        let out = &mut out[start..start + len];
+        let slope = if SLOPE {
+            &mut slope[start..start + len]
         } else {
-            linear::lane::<M, N>(p[i], v[i], constants.value(i))
+            &mut []
         };
+        let constants = constants.part(start, len);
+        if M == GENERAL {
+            logarithms(|i| constants.at(i).0, p, &mut ah[..len], &mut al[..len]);
+        }
+        if N == GENERAL {
+            logarithms(|i| constants.at(i).1, v, &mut bh[..len], &mut bl[..len]);
+        }
+        let (ah, al, bh, bl) = (&ah[..len], &al[..len], &bh[..len], &bl[..len]);
+        for i in 0..len {
+            let (m, n, c) = constants.at(i);
+            let a = Double {
+                hi: ah[i],
+                lo: al[i],
+            };
+            let b = Double {
+                hi: bh[i],
+                lo: bl[i],
+            };
+            let o = conclude::<M, N>(p[i], v[i], a, b, m, n, c);
+            out[i] = o.wear;
+            if SLOPE {
+                slope[i] = o.slope;
+            }
+            left |= u64::from(o.wear.is_nan());
+        }
+    }
+    left != 0
+}
+
+#[inline(always)]
+fn logarithms(exponent: impl Fn(usize) -> f64, x: &[f64], hi: &mut [f64], lo: &mut [f64]) {
+    let len = x.len();
+    let (hi, lo) = (&mut hi[..len], &mut lo[..len]);
+    for i in 0..len {
+        let t = logarithm(exponent(i), x[i]);
+        hi[i] = t.hi;
+        lo[i] = t.lo;
+    }
+}
+
+/// [`sweep`] for kinds without a logarithm.
+#[inline(always)]
+fn products<C: Constants, const M: u8, const N: u8, const SLOPE: bool>(
+    p: &[f64],
+    v: &[f64],
+    constants: C,
+    out: &mut [f64],
+    slope: &mut [f64],
+) -> bool {
+    let len = out.len();
+    let (p, v, constants) = (&p[..len], &v[..len], constants.part(0, len));
+    let slope = &mut slope[..if SLOPE { len } else { 0 }];
+    let mut left = 0u64;
+    for i in 0..len {
+        let o = linear::lane::<M, N>(p[i], v[i], constants.value(i));
         out[i] = o.wear;
         if SLOPE {
             slope[i] = o.slope;
