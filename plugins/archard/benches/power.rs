@@ -107,9 +107,10 @@ fn row(points: usize, m: f64, n: f64, with_slope: bool, rounds: usize, effort: u
     for (a, b) in plain.iter().zip(&out) {
         assert!((a - b).abs() <= 1e-14 * a.abs(), "libm {a:e}, kernel {b:e}");
     }
-    let (libm, kernel) = (median(&mut libm), median(&mut kernel));
+    let mut ratio: Vec<f64> = libm.iter().zip(&kernel).map(|(a, b)| a / b).collect();
+    let (libm, kernel, ratio) = (median(&mut libm), median(&mut kernel), median(&mut ratio));
     println!(
         "{points:>7} {m:>6} {n:>6} {with_slope:>5} {libm:>8.2} {kernel:>8.2} {:>7.2}",
-        libm / kernel
+        ratio
     );
 }

@@ -14,7 +14,7 @@ pub(super) const LINEAR: u8 = 1;
 /// Any other exponent.
 pub(super) const GENERAL: u8 = 2;
 
-/// Largest `|m log2 p| + |n log2 v|` that [`lane`] answers for.
+/// Largest `|m log2 p| + |n log2 v|` that [`lane`] answers for at usual exponents.
 const REACH: f64 = 1024.0;
 /// Largest `|m| + |n|` that it answers for.
 const LARGEST: f64 = 128.0;
@@ -108,9 +108,8 @@ pub(super) fn conclude<const M: u8, const N: u8>(
 
     // 0, or not a number if p or v is not finite.
     let doubt = (p - p) + (v - v);
-    let apt = apt(m, n);
-    let still = if n > 0.0 { doubt } else { f64::NAN };
-    let known = (size + doubt + apt <= REACH) & (k.abs() <= SPAN);
+    let still = doubt + if n > 0.0 { 0.0 } else { f64::NAN };
+    let known = (size + doubt <= reach(m, n)) & (k.abs() <= SPAN);
     let settle = |x: f64| {
         let x = if known { x } else { f64::NAN };
         let x = if v >= f64::MIN_POSITIVE {
@@ -134,14 +133,14 @@ pub(super) fn conclude<const M: u8, const N: u8>(
     }
 }
 
-/// 0 for exponents that [`lane`] answers for, else not a number: beyond [`LARGEST`] in sum the error
-/// of a logarithm would show, and a very small or large `m` would push a slope out of range
-/// on the way.
+/// Largest `|m log2 p| + |n log2 v|` that [`lane`] answers for, negative if it answers for none:
+/// beyond [`LARGEST`] in sum of exponents the error of a logarithm would show, and a very small
+/// `m` would push a slope out of range on the way.
 #[inline(always)]
-fn apt(m: f64, n: f64) -> f64 {
+fn reach(m: f64, n: f64) -> f64 {
     let small = (m.abs() < f64::EPSILON) & (m != 0.0);
     let usual = (m.abs() + n.abs() <= LARGEST) & !small;
-    if usual { 0.0 } else { f64::NAN }
+    if usual { REACH } else { -1.0 }
 }
 
 /// `(hi + lo) f`, not normalised: `|lo|` stays below two units in the last place of `hi`.

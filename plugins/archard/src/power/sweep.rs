@@ -2,111 +2,14 @@
 #![allow(unsafe_code)] // One call of a function compiled for AVX2 and FMA, after asking for both.
 
 use super::batch::Instructions;
+use super::constants::Constants;
 use super::double::Double;
 use super::exact;
-use super::kernel::{ABSENT, GENERAL, LINEAR, conclude, kind, logarithm};
+use super::kernel::{ABSENT, GENERAL, LINEAR, conclude, logarithm};
 use super::linear;
-use super::scale::Scale;
 
 /// Points that go through the stages of a general power together.
-const STRIP: usize = 64;
-
-/// What a loop over points asks of its constants.
-pub(super) trait Constants: Copy {
-    /// Whether [`Constants::odd`] may hold anywhere.
-    const VARY: bool;
-    /// m, n and (K/H) dt at point `i` of the block.
-    fn at(&self, i: usize) -> (f64, f64, Scale);
-    /// The factor as a double, where only that is needed.
-    fn value(&self, i: usize) -> f64;
-    /// The kinds that stand for every m and every n; [`GENERAL`] if they vary.
-    fn kinds(&self) -> (u8, u8);
-    /// Whether [`Constants::kinds`] is wrong at point `i`.
-    fn odd(&self, i: usize) -> bool;
-    /// The constants of points `start..start + len`, so that the compiler sees the lengths agree.
-    fn part(self, start: usize, len: usize) -> Self;
-}
-
-/// The same constants at every point.
-#[derive(Clone, Copy)]
-pub(super) struct Uniform {
-    m: f64,
-    n: f64,
-    c: Scale,
-    value: f64,
-}
-
-impl Uniform {
-    pub(super) fn new(m: f64, n: f64, c: Scale) -> Self {
-        let value = c.value();
-        Self { m, n, c, value }
-    }
-}
-
-impl Constants for Uniform {
-    const VARY: bool = false;
-
-    #[inline(always)]
-    fn at(&self, _: usize) -> (f64, f64, Scale) {
-        (self.m, self.n, self.c)
-    }
-    #[inline(always)]
-    fn value(&self, _: usize) -> f64 {
-        self.value
-    }
-    fn kinds(&self) -> (u8, u8) {
-        (kind(self.m), kind(self.n))
-    }
-    fn odd(&self, _: usize) -> bool {
-        false
-    }
-    #[inline(always)]
-    fn part(self, _: usize, _: usize) -> Self {
-        self
-    }
-}
-
-/// Constants of one point each.
-#[derive(Clone, Copy)]
-pub(super) struct Each<'a> {
-    pub(super) kinds: (u8, u8),
-    pub(super) m: &'a [f64],
-    pub(super) n: &'a [f64],
-    pub(super) k: &'a [f64],
-    pub(super) h: &'a [f64],
-    pub(super) dt: f64,
-}
-
-impl Constants for Each<'_> {
-    const VARY: bool = true;
-
-    #[inline(always)]
-    fn at(&self, i: usize) -> (f64, f64, Scale) {
-        let c = Scale::from_parts(self.k[i], self.h[i], self.dt);
-        (self.m[i], self.n[i], c)
-    }
-    #[inline(always)]
-    fn value(&self, i: usize) -> f64 {
-        Scale::from_parts(self.k[i], self.h[i], self.dt).value()
-    }
-    fn kinds(&self) -> (u8, u8) {
-        self.kinds
-    }
-    fn odd(&self, i: usize) -> bool {
-        let (m, n) = self.kinds;
-        kind(self.m[i]) != m || kind(self.n[i]) != n
-    }
-    #[inline(always)]
-    fn part(self, start: usize, len: usize) -> Self {
-        Self {
-            m: &self.m[start..start + len],
-            n: &self.n[start..start + len],
-            k: &self.k[start..start + len],
-            h: &self.h[start..start + len],
-            ..self
-        }
-    }
-}
+const STRIP: usize = 32;
 
 /// Evaluates adjacent points; all slices have the length of `out`.
 pub(super) fn run<C: Constants>(
@@ -157,6 +60,7 @@ fn run_any<C: Constants>(
     out: &mut [f64],
     slope: Option<&mut [f64]>,
 ) {
+    let constants = constants.ready();
     if constants.kinds() == (LINEAR, LINEAR) && slope.is_none() {
         if products::<C, LINEAR, LINEAR, false>(p, v, constants, out, &mut []) {
             finish(p, v, constants, out, slope);
@@ -175,6 +79,7 @@ fn choose<C: Constants>(
     out: &mut [f64],
     mut slope: Option<&mut [f64]>,
 ) {
+    let constants = constants.ready();
     macro_rules! by_kind {
         ($($by:ident $m:ident $n:ident),*) => {
             match (constants.kinds(), slope.as_deref_mut()) {
@@ -271,12 +176,17 @@ fn products<C: Constants, const M: u8, const N: u8, const SLOPE: bool>(
     let slope = &mut slope[..if SLOPE { len } else { 0 }];
     let mut left = 0u64;
     for i in 0..len {
-        let o = linear::lane::<M, N>(p[i], v[i], constants.value(i));
+        let (o, doubtful) = linear::products::<M, N>(p[i], v[i], constants.value(i));
         out[i] = o.wear;
         if SLOPE {
             slope[i] = o.slope;
         }
-        left |= u64::from(o.wear.is_nan());
+        left |= u64::from(doubtful);
+    }
+    if left != 0 {
+        for i in 0..len {
+            out[i] = linear::lane::<M, N>(p[i], v[i], constants.value(i)).wear;
+        }
     }
     left != 0
 }
