@@ -3,8 +3,8 @@
 //!
 //! The equations and the error budget stand in the documentation of [the module](super).
 
-use super::coefficients::{C0_HI, C0_LO, C1_HI, C1_LO, EXP_TAIL, LN2_HI, LN2_LO, LOG_TAIL};
-use super::double::{Double, fast_two_sum, two_product, two_sum};
+use super::coefficients::{C0_HI, C0_LO, C1, EXP_TAIL, LN2_HI, LN2_LO, LOG_TAIL};
+use super::double::{Double, doubt, fast_two_sum, two_product, two_sum};
 use super::scale::{Scale, split, two_to};
 
 /// An exponent of 0: the factor is 1 and its base is not looked at.
@@ -17,7 +17,7 @@ pub(super) const GENERAL: u8 = 2;
 /// Largest `|m log2 p| + |n log2 v|` that [`lane`] answers for at usual exponents.
 const REACH: f64 = 1024.0;
 /// Largest `|m| + |n|` that it answers for.
-const LARGEST: f64 = 128.0;
+const LARGEST: f64 = 32.0;
 /// Largest binary exponent of an increment that it answers for.
 const SPAN: f64 = 960.0;
 
@@ -107,7 +107,7 @@ pub(super) fn conclude<const M: u8, const N: u8>(
     let slope = m * wear / p;
 
     // 0, or not a number if p or v is not finite.
-    let doubt = (p - p) + (v - v);
+    let doubt = doubt(p) + doubt(v);
     let still = doubt + if n > 0.0 { 0.0 } else { f64::NAN };
     let known = (size + doubt <= reach(m, n)) & (k.abs() <= SPAN);
     let settle = |x: f64| {
@@ -152,8 +152,8 @@ fn times(hi: f64, lo: f64, f: f64) -> (f64, f64) {
 
 /// `log2(f 2^k)` for `sqrt(1/2) <= f < sqrt(2)` and an integer `k`.
 ///
-/// With `s = (f - 1) / (f + 1)` and `z = s^2` it is `k + s u`, `u = C0 + z g`,
-/// `g = C1 + z T(z)`; `s`, `z g` and `u` are carried to twice the precision of a double, `g` is not.
+/// With `s = (f - 1) / (f + 1)` and `z = s^2` it is `k + s u`, `u = C0 + z (C1 + z T(z))`; `s` and
+/// the sum `u` are carried to twice the precision of a double, the small `z (C1 + ..)` is not.
 #[inline(always)]
 pub(super) fn log2(f: f64, k: f64) -> Double {
     // s + s_lo to 2^-104: one division, the remainder from fused multiply-adds.
@@ -165,18 +165,15 @@ pub(super) fn log2(f: f64, k: f64) -> Double {
     let s_lo = (-s).mul_add(bottom_lo, (-s).mul_add(bottom, top)) * inverse;
 
     let z = s * s;
-    let z_lo = s.mul_add(s, -z);
     let z2 = z * z;
-    let [t0, t1, t2, t3, t4, t5, t6, t7] = LOG_TAIL;
+    let [t0, t1, t2, t3, t4, t5, t6] = LOG_TAIL;
     let low = t3.mul_add(z, t2).mul_add(z2, t1.mul_add(z, t0));
-    let high = t7.mul_add(z, t6).mul_add(z2, t5.mul_add(z, t4));
+    let high = t6.mul_add(z2, t5.mul_add(z, t4));
     let tail = high.mul_add(z2 * z2, low);
 
-    let g = tail.mul_add(z, C1_HI);
-    let (y, y_e) = two_product(z, g);
-    let y_lo = z.mul_add(C1_LO, z_lo.mul_add(g, y_e));
+    let y = z * tail.mul_add(z, C1);
     let (u, u_e) = fast_two_sum(C0_HI, y);
-    let u_lo = u_e + (y_lo + C0_LO);
+    let u_lo = u_e + C0_LO;
     // d(s u)/ds = C0 / (1 - z), nearly u + 2 y.
     let (first, first_e) = two_product(s, u);
     let first_lo = s_lo.mul_add(y.mul_add(2.0, u), s.mul_add(u_lo, first_e));

@@ -1,5 +1,6 @@
 //! Exponents that are 0 or 1: products only, each correctly rounded, at the speed of memory.
 
+use super::double::doubt;
 use super::kernel::{ABSENT, LINEAR, Outcome};
 
 /// `(c p) v` with the factor `c` as a double, its slope `c v`, or the shorter products where a
@@ -18,8 +19,8 @@ pub(super) fn products<const M: u8, const N: u8>(p: f64, v: f64, c: f64) -> (Out
             }
         }
     };
-    // p - p is 0, or not a number; the sum also makes every zero a positive one.
-    let wear = first * v + (p - p);
+    // The sum also makes every zero a positive one.
+    let wear = first * v + doubt(p);
     let slope = if M == LINEAR && p > 0.0 { c * v } else { 0.0 };
     // The double `c` holds the factor only while it is normal itself.
     let vague = c.abs() < f64::MIN_POSITIVE;

@@ -122,7 +122,7 @@ fn steps_of_columns_do_not_show() {
     let row = |i: usize| -> [f64; 6] { table[6 * i..6 * i + 6].try_into().unwrap() };
     for mask in 0..64usize {
         // A column is either uniform (its value at point 7) or strided through the table.
-        let column = |c: usize| match mask >> c & 1 {
+        let column = |c: usize| match (mask >> c) & 1 {
             0 => Column::uniform(&table[6 * 7 + c]),
             _ => Column::strided(&table[c..], 6),
         };
@@ -137,7 +137,7 @@ fn steps_of_columns_do_not_show() {
         };
         let at = |i: usize| {
             let x: [f64; 6] =
-                std::array::from_fn(|c| row(if mask >> c & 1 == 0 { 7 } else { i })[c]);
+                std::array::from_fn(|c| row(if (mask >> c) & 1 == 0 { 7 } else { i })[c]);
             (
                 [x[0], x[1]],
                 Law {

@@ -12,7 +12,7 @@ pub(super) struct Wide {
 fn high(a: u128, b: u128) -> u128 {
     const LOW: u128 = u64::MAX as u128;
     let (a1, a0, b1, b0) = (a >> 64, a & LOW, b >> 64, b & LOW);
-    let mid = a1 * b0 + (a0 * b0 >> 64);
+    let mid = a1 * b0 + ((a0 * b0) >> 64);
     let mid2 = a0 * b1 + (mid & LOW);
     a1 * b1 + (mid >> 64) + (mid2 >> 64)
 }
@@ -28,7 +28,7 @@ impl Wide {
         let bits = x.to_bits();
         let (mantissa, exponent) = match bits >> 52 {
             0 => (bits, -1022),
-            e => (bits & ((1 << 52) - 1) | 1 << 52, e as i64 - 1023),
+            e => ((bits & ((1 << 52) - 1)) | (1 << 52), e as i64 - 1023),
         };
         let shift = mantissa.leading_zeros() - 11;
         Self {
@@ -60,7 +60,7 @@ impl Wide {
         let (q, r) = (self.mantissa / divisor, self.mantissa % divisor);
         let q = (q << 52) + ((r << 52) / divisor);
         let shift = q.leading_zeros();
-        // self / b = (q / 2^52) 2^75 / 2^127 before the shift: 1 stands at 2^127 / 2^0.
+        // q is 2^127 times the quotient of the mantissas before the shift.
         Self {
             mantissa: q << shift,
             exponent: self.exponent - b.exponent - i64::from(shift),
