@@ -1,12 +1,10 @@
 //! The constants of a batch as its loops see them: one for all points, or one each.
 
-use super::kernel::kind;
+use super::kernel::{GENERAL, kind};
 use super::scale::Scale;
 
 /// What a loop over points asks of its constants.
 pub(super) trait Constants: Copy {
-    /// Whether [`Constants::odd`] may hold anywhere.
-    const VARY: bool;
     /// m, n and (K/H) dt at point `i` of the block.
     fn at(&self, i: usize) -> (f64, f64, Scale);
     /// The factor as a double, where only that is needed.
@@ -46,8 +44,6 @@ impl Uniform {
 }
 
 impl Constants for Uniform {
-    const VARY: bool = false;
-
     #[inline(always)]
     fn at(&self, _: usize) -> (f64, f64, Scale) {
         (self.m, self.n, self.c)
@@ -59,6 +55,7 @@ impl Constants for Uniform {
     fn kinds(&self) -> (u8, u8) {
         (kind(self.m), kind(self.n))
     }
+    #[inline(always)]
     fn odd(&self, _: usize) -> bool {
         false
     }
@@ -87,8 +84,6 @@ pub(super) struct Each<'a> {
 }
 
 impl Constants for Each<'_> {
-    const VARY: bool = true;
-
     #[inline(always)]
     fn at(&self, i: usize) -> (f64, f64, Scale) {
         let c = Scale::from_parts(self.k[i], self.h[i], self.dt);
@@ -101,9 +96,12 @@ impl Constants for Each<'_> {
     fn kinds(&self) -> (u8, u8) {
         self.kinds
     }
+    #[inline(always)]
     fn odd(&self, i: usize) -> bool {
-        let (m, n) = self.kinds;
-        kind(self.m[i]) != m || kind(self.n[i]) != n
+        let (m, n) = (self.m[i], self.n[i]);
+        let odd_m = (self.kinds.0 == GENERAL) & ((m == 0.0) | (m == 1.0));
+        let odd_n = (self.kinds.1 == GENERAL) & ((n == 0.0) | (n == 1.0));
+        odd_m | odd_n
     }
     #[inline(always)]
     fn ready(self) -> Self {

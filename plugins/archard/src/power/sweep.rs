@@ -94,7 +94,7 @@ fn choose<C: Constants>(
         sweep ABSENT GENERAL, products LINEAR LINEAR, products LINEAR ABSENT,
         products ABSENT LINEAR, products ABSENT ABSENT
     );
-    if left || C::VARY {
+    if left {
         finish(p, v, constants, out, slope);
     }
 }
@@ -145,7 +145,7 @@ fn sweep<C: Constants, const M: u8, const N: u8, const SLOPE: bool>(
             if SLOPE {
                 slope[i] = o.slope;
             }
-            left |= u64::from(o.wear.is_nan());
+            left |= u64::from(o.wear.is_nan() | constants.odd(i));
         }
     }
     left != 0
