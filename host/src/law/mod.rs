@@ -19,6 +19,7 @@ pub mod handle;
 #[cfg(feature = "layout-check")]
 pub mod layout_check;
 pub mod loader;
+pub mod memory;
 mod number_text;
 mod table;
 pub mod values;
@@ -32,3 +33,8 @@ pub use fields::{Claim, Claims, Field, Fields, Flag, Flags, OutputItem, OutputIt
 pub use handle::LawInstance;
 pub use loader::{Law, LoadError, LoadOptions, Plugin};
 pub use values::{CallNumbers, Indices, UnitSizes, Values};
+
+#[cfg(test)]
+mod test_laws;
+#[cfg(test)]
+mod tests;

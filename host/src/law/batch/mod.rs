@@ -16,8 +16,9 @@ mod columns;
 mod outputs;
 
 pub use builder::BatchBuilder;
+pub(in crate::law) use columns::column_of;
+use columns::index_column_of;
 use columns::{advance, behind};
-use columns::{column_of, index_column_of};
 pub use outputs::Outputs;
 
 /// Why a batch cannot be built.
