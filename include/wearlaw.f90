@@ -325,4 +325,26 @@ contains
     call wl_copy(c_loc(full), quantity, min(bytes, c_sizeof(full)))
   end subroutine wl_give_quantity
 
+  ! The quantity `index` (from 0) of a kind out of a law's table.
+  subroutine wl_give_declared(table, kind, index, quantity, status)
+    type(wl_declared), intent(in) :: table(:)
+    integer(c_int32_t), intent(in) :: kind
+    integer(c_int64_t), intent(in) :: index
+    type(c_ptr), intent(in) :: quantity
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: seen
+    integer :: j
+    status = WL_NO_MORE
+    seen = 0
+    do j = 1, size(table)
+      if (table(j)%kind /= kind) cycle
+      if (seen == index) then
+        call wl_give_quantity(table(j), quantity)
+        status = WL_OK
+        return
+      end if
+      seen = seen + 1
+    end do
+  end subroutine wl_give_declared
+
 end module wearlaw
