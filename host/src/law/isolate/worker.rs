@@ -3,6 +3,7 @@
 
 use std::fs::File;
 use std::io::{self, Read, Write};
+use std::mem::ManuallyDrop;
 use std::os::fd::FromRawFd;
 use std::sync::Arc;
 
@@ -31,16 +32,15 @@ pub fn worker_main(arguments: &[String], embedded: FindEmbedded<'_>) -> i32 {
     };
     reset_signals();
     keep_from_children(channels);
-    // SAFETY: the parent made these descriptors for this process, which opens each of them once.
-    let (mut from, mut to) = unsafe {
-        (
-            File::from_raw_fd(channels.from_parent),
-            File::from_raw_fd(channels.to_parent),
-        )
+    // Never dropped: a law may have closed them, and Rust aborts when it closes a descriptor that is closed already.
+    let mut memory = match Shared::inherit(channels.memory) {
+        Ok(memory) => ManuallyDrop::new(memory),
+        Err(_) => return WRONG_START,
     };
-    let Ok(mut memory) = Shared::inherit(channels.memory) else {
-        return WRONG_START;
-    };
+    // SAFETY: the parent made this descriptor for this process, which opens it once.
+    let mut from = ManuallyDrop::new(unsafe { File::from_raw_fd(channels.from_parent) });
+    // SAFETY: as above.
+    let mut to = ManuallyDrop::new(unsafe { File::from_raw_fd(channels.to_parent) });
     match serve(&mut from, &mut to, &mut memory, embedded) {
         Ok(()) => 0,
         Err(_) => LOST_CHANNEL,
