@@ -13,3 +13,4 @@ pub mod plan;
 pub mod record;
 pub mod reference;
 pub mod scene;
+pub mod solve;
