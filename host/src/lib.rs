@@ -9,6 +9,7 @@ pub mod contact;
 pub mod integrator;
 pub mod law;
 pub mod output;
+pub mod plan;
 pub mod record;
 pub mod reference;
 pub mod scene;

@@ -1,6 +1,7 @@
 //! The law's numbers: by name or by position, constant or in a table over time and temperature.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use serde::Serialize;
 
@@ -47,10 +48,29 @@ impl Constants {
     }
 
     /// The names, or the number of positions: what must agree between the rows of a table.
-    fn shape(&self) -> String {
+    fn shape(&self) -> RowShape {
         match self {
-            Self::ByName(constants) => constants.keys().cloned().collect::<Vec<_>>().join(", "),
-            Self::ByPosition(constants) => format!("1 to {} by position", constants.len()),
+            Self::ByName(constants) => RowShape::Names(constants.keys().cloned().collect()),
+            Self::ByPosition(constants) => RowShape::Positions(constants.len()),
+        }
+    }
+}
+
+/// Which constants a row of a table gives.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RowShape {
+    /// These names.
+    Names(Vec<String>),
+    /// So many by position.
+    Positions(usize),
+}
+
+impl fmt::Display for RowShape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Names(names) => write!(f, "the constants `{}`", names.join("`, `")),
+            Self::Positions(1) => write!(f, "1 constant by position"),
+            Self::Positions(count) => write!(f, "{count} constants by position"),
         }
     }
 }

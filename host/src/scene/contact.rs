@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::bound::Bound;
-use super::error::SceneError;
-use super::reader::{Section, Word};
+use super::error::{Problem, SceneError};
+use super::reader::{Key, Section, Word};
 
 /// The contact models by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -22,8 +22,11 @@ pub enum ModelKind {
 }
 
 impl Word for ModelKind {
-    const ALL: &'static [(&'static str, Self)] =
-        &[("prescribed", Self::Prescribed), ("foundation", Self::Foundation), ("halfspace", Self::HalfSpace)];
+    const ALL: &'static [(&'static str, Self)] = &[
+        ("prescribed", Self::Prescribed),
+        ("foundation", Self::Foundation),
+        ("halfspace", Self::HalfSpace),
+    ];
 }
 
 impl fmt::Display for ModelKind {
@@ -129,7 +132,8 @@ pub enum Boundary {
 }
 
 impl Word for Boundary {
-    const ALL: &'static [(&'static str, Self)] = &[("free", Self::Free), ("periodic", Self::Periodic)];
+    const ALL: &'static [(&'static str, Self)] =
+        &[("free", Self::Free), ("periodic", Self::Periodic)];
 }
 
 impl Model {
@@ -151,51 +155,85 @@ impl Elasticity {
     pub fn modulus(&self) -> f64 {
         match self {
             Self::Modulus(modulus) => *modulus,
-            Self::Bodies(bodies) => {
-                bodies.iter().map(|body| (1.0 - body.poisson * body.poisson) / body.young).sum::<f64>().recip()
-            }
+            Self::Bodies(bodies) => bodies
+                .iter()
+                .map(|body| (1.0 - body.poisson * body.poisson) / body.young)
+                .sum::<f64>()
+                .recip(),
         }
     }
 }
 
+const KEYS: &[Key] = &[
+    ("model", &[]),
+    ("dimension", &[]),
+    ("friction", &[]),
+    ("history", PRESCRIBED),
+    ("stiffness", FOUNDATION),
+    ("tolerance", SOLVED),
+    ("modulus", HALFSPACE),
+    ("bodies", HALFSPACE),
+    ("boundary", HALFSPACE),
+    ("datum", HALFSPACE),
+];
+
 impl Contact {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, SceneError> {
-        let kind: ModelKind = section.need("model")?.word()?;
-        section.keys(
-            &[
-                ("model", &[]),
-                ("dimension", &[]),
-                ("friction", &[]),
-                ("history", PRESCRIBED),
-                ("stiffness", FOUNDATION),
-                ("tolerance", SOLVED),
-                ("modulus", HALFSPACE),
-                ("bodies", HALFSPACE),
-                ("boundary", HALFSPACE),
-                ("datum", HALFSPACE),
-            ],
-            kind,
-        )?;
-        let dimension = section.get("dimension").map(|item| item.count(2, 3)).transpose()?.unwrap_or(3);
-        let tolerance = section.get("tolerance").map(|item| item.number(Bound::Between(0.0, 1.0))).transpose()?;
+        let kind: ModelKind = match section.get("model") {
+            Some(item) => item.word()?,
+            // A misspelt `model` is the better thing to say; keys of some model cannot be judged yet.
+            None => match section.keys(KEYS, ModelKind::HalfSpace) {
+                Err(error) if matches!(*error.problem, Problem::UnknownKey { .. }) => {
+                    return Err(error);
+                }
+                _ => return Err(section.missing("model", "")),
+            },
+        };
+        section.keys(KEYS, kind)?;
+        let dimension = section
+            .get("dimension")
+            .map(|item| item.count(2, 3))
+            .transpose()?
+            .unwrap_or(3);
+        let tolerance = section
+            .get("tolerance")
+            .map(|item| item.number(Bound::Between(0.0, 1.0)))
+            .transpose()?;
         let tolerance = tolerance.unwrap_or(Model::TOLERANCE);
         let model = match kind {
-            ModelKind::Prescribed => {
-                Model::Prescribed(Prescribed { history: section.get("history").map(|item| item.path()).transpose()? })
-            }
+            ModelKind::Prescribed => Model::Prescribed(Prescribed {
+                history: section.get("history").map(|item| item.path()).transpose()?,
+            }),
             ModelKind::Foundation => {
                 let stiffness = section.need("stiffness")?.number(Bound::Above(0.0))?;
-                Model::Foundation(Foundation { stiffness, tolerance })
+                Model::Foundation(Foundation {
+                    stiffness,
+                    tolerance,
+                })
             }
             ModelKind::HalfSpace => Model::HalfSpace(HalfSpace {
                 elasticity: Elasticity::read(section)?,
-                boundary: section.get("boundary").map(|item| item.word()).transpose()?.unwrap_or_default(),
+                boundary: section
+                    .get("boundary")
+                    .map(|item| item.word())
+                    .transpose()?
+                    .unwrap_or_default(),
                 tolerance,
-                datum: section.get("datum").map(|item| item.number(Bound::Above(0.0))).transpose()?,
+                datum: section
+                    .get("datum")
+                    .map(|item| item.number(Bound::Above(0.0)))
+                    .transpose()?,
             }),
         };
-        let friction = section.get("friction").map(|item| item.number(Bound::AtLeast(0.0))).transpose()?;
-        Ok(Self { model, dimension: dimension as u8, friction })
+        let friction = section
+            .get("friction")
+            .map(|item| item.number(Bound::AtLeast(0.0)))
+            .transpose()?;
+        Ok(Self {
+            model,
+            dimension: dimension as u8,
+            friction,
+        })
     }
 }
 
@@ -218,6 +256,9 @@ impl Elasticity {
             let poisson = section.need("nu")?.number(Bound::AboveUpTo(-1.0, 0.5))?;
             Ok(Body { young, poisson })
         };
-        Ok(Self::Bodies([body(first.section()?)?, body(second.section()?)?]))
+        Ok(Self::Bodies([
+            body(first.section()?)?,
+            body(second.section()?)?,
+        ]))
     }
 }

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use super::bound::Bound;
+use super::constants::RowShape;
 use super::contact::ModelKind;
-use super::phrase::{Because, Hint, List, Most, Point, Stranger};
+use super::phrase::{Because, Entries, Hint, List, Most, Point, Stranger};
 use super::place::Located;
 
 /// A problem of a scene with its place in the file or in an override.
@@ -167,8 +168,8 @@ pub enum Problem {
     },
     /// A list of the wrong length.
     #[error(
-        "found {found} entries for `{key}`, expected {expected}{}",
-        Because(reason)
+        "found {} for `{key}`, expected {expected}{}",
+        Entries(*found), Because(reason)
     )]
     WrongLength {
         /// The key.
@@ -255,14 +256,12 @@ pub enum Problem {
         expected: &'static str,
     },
     /// Rows of a table with different constants.
-    #[error(
-        "found a row of `law.table` with the constants {found}, expected {expected} as in the first row"
-    )]
+    #[error("found a row of `law.table` with {found}, expected {expected} as in the first row")]
     RowConstants {
         /// The constants of this row.
-        found: String,
+        found: RowShape,
         /// The constants of the first row.
-        expected: String,
+        expected: RowShape,
     },
     /// Two rows for one point.
     #[error(

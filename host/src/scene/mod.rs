@@ -25,7 +25,7 @@ mod units;
 mod tests;
 
 pub use bound::Bound;
-pub use constants::{Constants, TableRow};
+pub use constants::{Constants, RowShape, TableRow};
 pub use contact::{
     Body, Boundary, Contact, Elasticity, Foundation, HalfSpace, Model, ModelKind, Prescribed,
 };

@@ -86,3 +86,17 @@ impl fmt::Display for Most {
         }
     }
 }
+
+/// So many entries of a list.
+pub(super) struct Entries(pub(super) usize);
+
+impl fmt::Display for Entries {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} {}",
+            self.0,
+            if self.0 == 1 { "entry" } else { "entries" }
+        )
+    }
+}

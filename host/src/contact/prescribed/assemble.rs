@@ -1,6 +1,6 @@
 //! Which time row and which point each row of a long-form history belongs to.
 
-use super::HistoryError;
+use super::{HistoryError, PointIds};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -19,20 +19,25 @@ pub(super) struct Slot {
 ///
 /// The n-th row of a point belongs to the n-th time row, so a file may run through the times for
 /// each point, through the points at each time, or mix the two; all that counts is that every
-/// point runs through the same times in the same order.
+/// point runs through the same times in the same order. Rows in order of time and of ascending or
+/// counted ids cost no memory here, which matters for millions of points.
 #[derive(Default)]
 pub(super) struct RowIndex {
     pub times: Vec<f64>,
-    ids: Vec<i64>,
-    by_id: HashMap<i64, u32>,
-    /// Number of rows that each point has had.
-    seen: Vec<u32>,
+    points: Points,
     /// The point that brought each time row.
     first: Vec<u32>,
     rows: usize,
     last: usize,
-    /// Slots of all rows, once they are not simply in order of time and point.
-    order: Option<Vec<(u32, u32)>>,
+    /// What rows out of the order of time and point need, once there are such.
+    disorder: Option<Disorder>,
+}
+
+struct Disorder {
+    /// Time row and point of each row.
+    slots: Vec<(u32, u32)>,
+    /// Number of rows that each point has had.
+    seen: Vec<u32>,
 }
 
 impl RowIndex {
@@ -44,39 +49,36 @@ impl RowIndex {
         id: i64,
         line: &dyn Fn() -> u64,
     ) -> Result<Slot, HistoryError> {
-        let known = self.find(id);
+        let known = self.points.find(id, self.last);
         let is_new = known.is_none();
-        let points_before = self.ids.len();
-        let point = known.unwrap_or(points_before);
-        let at = if is_new { 0 } else { self.seen[point] as usize };
+        let point = known.unwrap_or(self.points.len());
+        let at = if is_new { 0 } else { self.seen(point) };
         if at == self.times.len() {
             self.push_time(path, time, id, point, line)?;
         } else if time != self.times[at] {
             return Err(self.misfit(path, time, id, at, line));
         }
-        if is_new {
-            self.by_id.insert(id, point as u32);
-            self.ids.push(id);
-            self.seen.push(0);
-        }
-        self.seen[point] += 1;
         let slot = Slot {
             time: at,
             point,
             is_new,
         };
-        self.note_order(slot, points_before);
+        self.note_order(slot);
+        if is_new {
+            self.points.push(id);
+        }
         self.rows += 1;
         self.last = point;
         Ok(slot)
     }
 
-    /// Rows come mostly in the order of the rows before: the next point, the same, or the first.
-    fn find(&self, id: i64) -> Option<usize> {
-        [self.last + 1, self.last, 0]
-            .into_iter()
-            .find(|at| self.ids.get(*at) == Some(&id))
-            .or_else(|| self.by_id.get(&id).map(|at| *at as usize))
+    /// Number of rows that a known point has had.
+    fn seen(&self, point: usize) -> usize {
+        let points = self.points.len();
+        match &self.disorder {
+            Some(disorder) => disorder.seen[point] as usize,
+            None => self.rows / points + usize::from(point < self.rows % points),
+        }
     }
 
     fn push_time(
@@ -124,7 +126,7 @@ impl RowIndex {
     ) -> HistoryError {
         let path = path.to_path_buf();
         let expected = self.times[at];
-        let other = self.ids[self.first[at] as usize];
+        let other = self.points.id(self.first[at] as usize);
         let before = at.checked_sub(1).map(|at| self.times[at]);
         match before {
             Some(before) if time < before => HistoryError::TimeGoesBack {
@@ -163,19 +165,28 @@ impl RowIndex {
         }
     }
 
-    fn note_order(&mut self, slot: Slot, points_before: usize) {
+    /// Takes note of a row that is about to be added, its point not yet.
+    fn note_order(&mut self, slot: Slot) {
         let in_order = if slot.is_new {
             self.times.len() == 1
         } else {
-            slot.time * self.ids.len() + slot.point == self.rows
+            slot.time * self.points.len() + slot.point == self.rows
         };
-        if !in_order && self.order.is_none() {
-            let points = points_before.max(1);
+        if !in_order && self.disorder.is_none() {
+            let points = self.points.len();
             let before = (0..self.rows).map(|row| ((row / points) as u32, (row % points) as u32));
-            self.order = Some(before.collect());
+            let seen = (0..points).map(|point| self.seen(point) as u32);
+            self.disorder = Some(Disorder {
+                slots: before.collect(),
+                seen: seen.collect(),
+            });
         }
-        if let Some(order) = &mut self.order {
-            order.push((slot.time as u32, slot.point as u32));
+        if let Some(disorder) = &mut self.disorder {
+            if slot.is_new {
+                disorder.seen.push(0);
+            }
+            disorder.seen[slot.point] += 1;
+            disorder.slots.push((slot.time as u32, slot.point as u32));
         }
     }
 
@@ -186,9 +197,10 @@ impl RowIndex {
 
     /// Time row and point of a row that was taken.
     pub fn slot(&self, row: usize) -> (usize, usize) {
-        match &self.order {
-            Some(order) => (order[row].0 as usize, order[row].1 as usize),
-            None => (row / self.ids.len(), row % self.ids.len()),
+        let points = self.points.len();
+        match &self.disorder {
+            Some(Disorder { slots, .. }) => (slots[row].0 as usize, slots[row].1 as usize),
+            None => (row / points, row % points),
         }
     }
 
@@ -197,14 +209,12 @@ impl RowIndex {
         if self.rows == 0 {
             return Err(HistoryError::NoRows { path: path.into() });
         }
-        let short = self
-            .seen
-            .iter()
-            .position(|seen| *seen as usize != self.times.len());
+        let points = self.points.len();
+        let short = (0..points).find(|point| self.seen(*point) != self.times.len());
         if let Some(point) = short {
-            let at = self.seen[point] as usize;
-            let (point, time) = (self.ids[point], self.times[at]);
-            let other = self.ids[self.first[at] as usize];
+            let at = self.seen(point);
+            let (point, time) = (self.points.id(point), self.times[at]);
+            let other = self.points.id(self.first[at] as usize);
             let path = path.to_path_buf();
             return Err(if at > 0 && self.times[at - 1] == time {
                 HistoryError::PointTwice {
@@ -223,34 +233,114 @@ impl RowIndex {
                 }
             });
         }
-        let mut sorted: Vec<u32> = (0..self.ids.len() as u32).collect();
-        let mut rank = None;
-        if !self.ids.is_sorted() {
-            sorted.sort_unstable_by_key(|point| self.ids[*point as usize]);
-            let mut place = vec![0_u32; sorted.len()];
-            for (at, point) in sorted.iter().enumerate() {
-                place[*point as usize] = at as u32;
-            }
-            rank = Some(place);
-        }
-        let ids = sorted
-            .iter()
-            .map(|point| self.ids[*point as usize])
-            .collect();
+        let (ids, rank) = self.points.sorted();
+        let slots = self.disorder.map(|disorder| disorder.slots);
         Ok(Placement {
             times: self.times,
             ids,
-            order: self.order,
+            slots,
             rank,
         })
+    }
+}
+
+/// The ids in the order of first appearance.
+enum Points {
+    /// 0, 1, 2 and so on.
+    Counted(usize),
+    /// Ascending.
+    Ascending(Vec<i64>),
+    /// Any, with the place of each.
+    Mixed(Vec<i64>, HashMap<i64, u32>),
+}
+
+impl Default for Points {
+    fn default() -> Points {
+        Points::Counted(0)
+    }
+}
+
+impl Points {
+    fn len(&self) -> usize {
+        match self {
+            Points::Counted(points) => *points,
+            Points::Ascending(ids) | Points::Mixed(ids, _) => ids.len(),
+        }
+    }
+
+    fn id(&self, point: usize) -> i64 {
+        match self {
+            Points::Counted(_) => point as i64,
+            Points::Ascending(ids) | Points::Mixed(ids, _) => ids[point],
+        }
+    }
+
+    /// The place of an id; mostly the one after the last, the last itself, or the first.
+    fn find(&self, id: i64, last: usize) -> Option<usize> {
+        let usual = |ids: &[i64]| {
+            [last + 1, last, 0]
+                .into_iter()
+                .find(|at| ids.get(*at) == Some(&id))
+        };
+        match self {
+            Points::Counted(points) => usize::try_from(id).ok().filter(|at| at < points),
+            Points::Ascending(ids) if ids.last().is_none_or(|greatest| id > *greatest) => None,
+            Points::Ascending(ids) => usual(ids).or_else(|| ids.binary_search(&id).ok()),
+            Points::Mixed(ids, places) => {
+                usual(ids).or_else(|| places.get(&id).map(|at| *at as usize))
+            }
+        }
+    }
+
+    fn push(&mut self, id: i64) {
+        if let Points::Counted(points) = self {
+            if id == *points as i64 {
+                *points += 1;
+                return;
+            }
+            *self = Points::Ascending((0..*points as i64).collect());
+        }
+        if let Points::Ascending(ids) = self {
+            if ids.last().is_none_or(|greatest| id > *greatest) {
+                ids.push(id);
+                return;
+            }
+            let places = ids
+                .iter()
+                .enumerate()
+                .map(|(at, id)| (*id, at as u32))
+                .collect();
+            *self = Points::Mixed(std::mem::take(ids), places);
+        }
+        if let Points::Mixed(ids, places) = self {
+            places.insert(id, ids.len() as u32);
+            ids.push(id);
+        }
+    }
+
+    /// The ids in ascending order and, if that is another one, the new place of each.
+    fn sorted(self) -> (PointIds, Option<Vec<u32>>) {
+        let ids = match self {
+            Points::Counted(points) => return (PointIds::Counted(points), None),
+            Points::Ascending(ids) => return (PointIds::from_list(ids), None),
+            Points::Mixed(ids, _) => ids,
+        };
+        let mut order: Vec<u32> = (0..ids.len() as u32).collect();
+        order.sort_unstable_by_key(|point| ids[*point as usize]);
+        let mut rank = vec![0_u32; ids.len()];
+        for (at, point) in order.iter().enumerate() {
+            rank[*point as usize] = at as u32;
+        }
+        let ascending = order.iter().map(|point| ids[*point as usize]).collect();
+        (PointIds::from_list(ascending), Some(rank))
     }
 }
 
 /// The finished arrangement: times, points by ascending id, and where each row goes.
 pub(super) struct Placement {
     pub times: Vec<f64>,
-    pub ids: Vec<i64>,
-    order: Option<Vec<(u32, u32)>>,
+    pub ids: PointIds,
+    slots: Option<Vec<(u32, u32)>>,
     rank: Option<Vec<u32>>,
 }
 
@@ -259,14 +349,14 @@ impl Placement {
     ///
     /// Rows that came in that order already are handed through without a copy.
     pub fn place_rows(&self, rows: Vec<f64>) -> Vec<f64> {
-        if self.order.is_none() && self.rank.is_none() {
+        if self.slots.is_none() && self.rank.is_none() {
             return rows;
         }
         let points = self.ids.len();
         let mut grid = vec![0.0; rows.len()];
         for (row, value) in rows.into_iter().enumerate() {
-            let (time, point) = match &self.order {
-                Some(order) => (order[row].0 as usize, order[row].1 as usize),
+            let (time, point) = match &self.slots {
+                Some(slots) => (slots[row].0 as usize, slots[row].1 as usize),
                 None => (row / points, row % points),
             };
             grid[time * points + self.rank_of(point)] = value;

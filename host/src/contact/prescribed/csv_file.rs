@@ -3,7 +3,6 @@
 use super::assemble::RowIndex;
 use super::growing::Growing;
 use super::header::open;
-use super::history::PointIds;
 use super::{Column, Header, History, HistoryError, Layout, Needs};
 use csv::ByteRecord;
 use std::cell::Cell;
@@ -200,7 +199,7 @@ pub(super) fn read(header: &Header, needs: &Needs) -> Result<History, HistoryErr
     Ok(History {
         path: path.into(),
         columns,
-        point_ids: PointIds::from_list(placement.ids),
+        point_ids: placement.ids,
         times: placement.times,
     })
 }

@@ -223,7 +223,7 @@ impl Archive<'_> {
             };
             columns.insert(column, data);
         }
-        let point_ids = PointIds::from_list(placement.ids);
+        let point_ids = placement.ids;
         Ok(History {
             path: path.into(),
             times: placement.times,

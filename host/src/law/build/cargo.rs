@@ -30,6 +30,10 @@ pub(super) fn build(request: &BuildRequest, manifest: &Path) -> Result<(PathBuf,
         "--manifest-path",
     ]);
     command.arg(&manifest).args(&request.extra_flags);
+    if let Some(folder) = manifest.parent() {
+        // The crate's own `.cargo/config.toml` and `rust-toolchain.toml` are looked for from there.
+        command.current_dir(folder);
+    }
     let mut log = Log::default();
     let stdout = log.run(command, Language::Rust)?;
     let built = cdylib_of(&manifest, &stdout).ok_or_else(|| BuildError::NoCdylib {

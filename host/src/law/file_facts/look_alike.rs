@@ -88,6 +88,9 @@ impl LookAlike {
     /// What to do about it, as the rest of a sentence.
     pub(super) fn hint(&self) -> &'static str {
         match self {
+            Self::Source {
+                language: Language::Rust,
+            } => "; `wearlaw build` makes a library of its crate",
             Self::Source { .. } => "; `wearlaw build` makes a library of it",
             Self::ObjectFile => "; link it with -shared",
             Self::StaticArchive => "; link its objects with -shared",

@@ -69,6 +69,39 @@ fn a_sanitized_library_is_refused_with_the_command_that_helps() {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn a_runtime_that_is_in_the_process_is_enough() {
+    const TEST: &str = "law::file_facts::tests_needs::a_runtime_that_is_in_the_process_is_enough";
+    if let Some(law) = std::env::var_os("WEARLAW_TEST_SANITIZED") {
+        FileFacts::read(Path::new(&law)).unwrap();
+        return;
+    }
+    let bench = Bench::new();
+    // A runtime of that name, so that the test needs none installed.
+    let runtime = bench.compile(
+        "libtsan.so",
+        "int rt(void) { return 0; }\n",
+        &["-Wl,-soname,libtsan.so"],
+    );
+    let from = format!("-L{}", bench.folder.path().display());
+    let source = format!("{ENTRY}int rt(void);\nint use(void) {{ return rt(); }}\n");
+    let law = bench.compile("law.so", &source, &[&from, "-ltsan"]);
+    assert!(bench.refusal(&law).contains("thread sanitizer"));
+    let output = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", TEST, "--nocapture"])
+        .env("WEARLAW_TEST_SANITIZED", &law)
+        .env("LD_PRELOAD", &runtime)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        output.status.success() && said.contains("1 passed"),
+        "{said}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn what_the_linker_says_is_put_into_words() {
     let bench = Bench::new();
     let load = |library: &Path| {
