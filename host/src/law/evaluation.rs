@@ -53,6 +53,28 @@ pub enum Evaluation {
     },
 }
 
+impl Evaluation {
+    /// The worse of two ends of one substep: good, unreliable, cut; of two cuts the shorter substep.
+    pub fn worse(self, other: Evaluation) -> Evaluation {
+        match (&self, &other) {
+            (_, Evaluation::Good) => self,
+            (
+                Evaluation::CutStep { factor: mine, .. },
+                Evaluation::CutStep { factor: yours, .. },
+            ) => {
+                if yours < mine {
+                    other
+                } else {
+                    self
+                }
+            }
+            (Evaluation::CutStep { .. }, _) => self,
+            (_, Evaluation::CutStep { .. }) | (Evaluation::Good, _) => other,
+            (Evaluation::Unreliable { .. }, Evaluation::Unreliable { .. }) => self,
+        }
+    }
+}
+
 /// A point and what the law was given there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointInputs {
@@ -69,6 +91,16 @@ pub struct NamedValues {
     pub name: String,
     /// One number, or the three of a vector.
     pub values: Vec<NumberText>,
+}
+
+impl NamedValues {
+    /// Names some numbers.
+    pub fn new(name: &str, values: &[f64]) -> Self {
+        Self {
+            name: name.to_owned(),
+            values: values.iter().copied().map(NumberText).collect(),
+        }
+    }
 }
 
 /// A double that survives JSON.
@@ -210,12 +242,14 @@ pub enum EvaluateError {
         at: PointInputs,
     },
     /// The wear direction is not a unit vector.
-    #[error("law `{law}` gave a direction of length {} at {at}, expected 1", length.0)]
+    #[error("law `{law}` gave a direction of length {} at {at}, expected 1 within {:e}", length.0, tolerance.0)]
     DirectionLength {
         /// The law.
         law: String,
         /// Its length.
         length: NumberText,
+        /// How far from 1 it may be.
+        tolerance: NumberText,
         /// The point.
         at: PointInputs,
     },

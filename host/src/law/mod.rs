@@ -6,22 +6,29 @@
 
 pub mod batch;
 pub mod build;
+mod checks;
 pub mod constants;
+pub mod describe;
 pub mod descriptor;
 pub mod entry;
 pub mod evaluation;
 pub mod fields;
 pub mod file_facts;
 pub mod float_env;
+pub mod handle;
 #[cfg(feature = "layout-check")]
 pub mod layout_check;
+pub mod loader;
 mod number_text;
+mod table;
 pub mod values;
 
 pub use batch::{Batch, BatchBuilder, BatchError, Outputs};
 pub use constants::{ConstantsError, GivenConstants};
 pub use descriptor::{Degree, LawDescriptor, Quantity};
-pub use entry::{Embedded, Entry};
+pub use entry::{Embedded, Entry, LibraryFile};
 pub use evaluation::{EvaluateError, Evaluation, Evaluator, NamedValues, PointInputs};
 pub use fields::{Claim, Claims, Field, Fields, Flag, Flags, OutputItem, OutputItems};
+pub use handle::LawInstance;
+pub use loader::{Law, LoadError, LoadOptions, Plugin};
 pub use values::{CallNumbers, Indices, UnitSizes, Values};

@@ -9,6 +9,7 @@ use thiserror::Error;
 use wearlaw_plugin_api::abi;
 
 use super::descriptor::LawDescriptor;
+use super::evaluation::{NamedValues, PointInputs};
 
 mod builder;
 mod columns;
@@ -16,7 +17,7 @@ mod outputs;
 
 pub use builder::BatchBuilder;
 use columns::{advance, behind};
-pub(in crate::law) use columns::{column_of, index_column_of};
+use columns::{column_of, index_column_of};
 pub use outputs::Outputs;
 
 /// Why a batch cannot be built.
@@ -167,5 +168,69 @@ impl<'a> Batch<'a> {
         view.constants = constants.as_ptr();
         view.inputs = inputs.as_ptr();
         view
+    }
+
+    /// What the law is given at a point of this batch: fields, constants, further inputs and state variables.
+    ///
+    /// # Panics
+    /// If there is no such point, as indexing a slice does.
+    pub fn inputs_at(&self, point: usize) -> PointInputs {
+        assert!(point < self.points, "point {point} of {}", self.points);
+        let law = self.descriptor();
+        let mut view = self.store.view;
+        let index = self.first + point;
+        let mut values = Vec::new();
+        for field in law.fields().iter() {
+            let found = if let Some(column) = index_column_of(&mut view, field) {
+                self.integer(*column, index)
+                    .map(|number| vec![number as f64])
+            } else {
+                column_of(&mut view, field)
+                    .and_then(|column| self.reals(*column, index, field.shape().width()))
+            };
+            if let Some(found) = found {
+                values.push(NamedValues::new(field.name(), &found));
+            }
+        }
+        let quantities = law.constants.iter().chain(&law.inputs);
+        for (quantity, column) in quantities.zip(&self.store.columns) {
+            if let Some(found) = self.reals(*column, index, 1) {
+                values.push(NamedValues::new(&quantity.name, &found));
+            }
+        }
+        let state = self
+            .reals(view.state, index, law.state.len())
+            .unwrap_or_default();
+        for (variable, value) in law.state.iter().zip(state) {
+            values.push(NamedValues::new(&variable.name, &[value]));
+        }
+        PointInputs {
+            point: index,
+            values,
+        }
+    }
+
+    fn reals(&self, column: abi::Column, index: usize, width: usize) -> Option<Vec<f64>> {
+        if column.ptr.is_null() {
+            return None;
+        }
+        let first = column
+            .ptr
+            .wrapping_offset(index as isize * column.step as isize);
+        // SAFETY: the builder checked that the column reaches over all points, and `index` is one of them; the numbers
+        // are borrowed or owned by the store.
+        Some(unsafe { std::slice::from_raw_parts(first, width) }.to_vec())
+    }
+
+    fn integer(&self, column: abi::IndexColumn, index: usize) -> Option<i64> {
+        if column.ptr.is_null() {
+            return None;
+        }
+        // SAFETY: as for `reals`.
+        Some(unsafe {
+            *column
+                .ptr
+                .wrapping_offset(index as isize * column.step as isize)
+        })
     }
 }

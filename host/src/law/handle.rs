@@ -1,0 +1,279 @@
+//! An instance of a law in this process: calls it piece by piece and checks what it answers.
+#![allow(unsafe_code)] // reason: hands raw arrays to a law.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use wearlaw_plugin_api::abi;
+
+use super::batch::{Batch, Outputs};
+use super::checks::{no_nan, sweep, unit_lengths};
+use super::descriptor::LawDescriptor;
+use super::evaluation::{EvaluateError, Evaluation, Evaluator};
+use super::fields::{Claim, OutputItem};
+use super::float_env::FloatEnv;
+use super::table::Created;
+
+mod diagnosis;
+
+/// Points in a piece: its columns and outputs stay in the second-level cache between the law and the checks.
+pub const PIECE: usize = 4096;
+
+/// A law that has been created; dropping it destroys the instance, then lets go of the library.
+pub struct LawInstance {
+    created: Created,
+    turn: Option<Mutex<()>>,
+    float_warned: AtomicBool,
+    warnings: Mutex<Vec<String>>,
+}
+
+impl std::fmt::Debug for LawInstance {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("LawInstance")
+            .field("name", &self.descriptor().name)
+            .finish_non_exhaustive()
+    }
+}
+
+/// What one raw call came to.
+struct Raw {
+    status: i32,
+    first_bad: i64,
+    dt_factor: f64,
+    missing: i64,
+}
+
+impl LawInstance {
+    pub(super) fn new(created: Created, warnings: Vec<String>) -> Self {
+        let turn = created.law.descriptor.is_serial().then(Mutex::default);
+        Self {
+            created,
+            turn,
+            float_warned: AtomicBool::new(false),
+            warnings: Mutex::new(warnings),
+        }
+    }
+
+    /// As [`Evaluator::evaluate`]; `watch` is told of every piece before the law sees it.
+    ///
+    /// # Errors
+    /// As [`Evaluator::evaluate`].
+    #[inline]
+    pub(super) fn evaluate_watched(
+        &self,
+        batch: &Batch<'_>,
+        outputs: &mut Outputs<'_>,
+        watch: impl Fn(Range<usize>),
+    ) -> Result<Evaluation, EvaluateError> {
+        let law = self.descriptor();
+        fits(law, batch, outputs)?;
+        let _turn = self
+            .turn
+            .as_ref()
+            .map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
+        let mut scratch = Vec::new();
+        let mut worst = Evaluation::Good;
+        let mut start = 0;
+        while start < batch.points() {
+            let piece = start..batch.points().min(start + PIECE);
+            start = piece.end;
+            watch(piece.clone());
+            let raw = self.call(batch, piece.clone(), outputs, None, None, &mut scratch);
+            if raw.status <= abi::WL_UNRELIABLE && raw.status >= abi::WL_OK {
+                self.check(batch, piece.clone(), outputs)?;
+            }
+            if raw.status != abi::WL_OK {
+                // The first warning of a call is told in full; to ask the law again for each piece would cost as much.
+                if raw.status == abi::WL_UNRELIABLE && worst != Evaluation::Good {
+                    continue;
+                }
+                worst = worst.worse(self.diagnose(batch, piece, outputs, &raw, &mut scratch)?);
+            }
+        }
+        Ok(worst)
+    }
+
+    /// One call of the law on `piece`; `status` stands in for the caller's status array.
+    #[inline]
+    fn call(
+        &self,
+        batch: &Batch<'_>,
+        piece: Range<usize>,
+        outputs: &mut Outputs<'_>,
+        status: Option<&mut [i32]>,
+        text: Option<&mut [std::ffi::c_char]>,
+        scratch: &mut Vec<abi::Column>,
+    ) -> Raw {
+        let variables = self.descriptor().state.len();
+        let null = std::ptr::null_mut();
+        let status = match status {
+            Some(status) => status.as_mut_ptr(),
+            None => at(&mut outputs.status, &piece, 1),
+        };
+        let (text, text_size) = text.map_or((std::ptr::null_mut(), 0), |text| {
+            (text.as_mut_ptr(), text.len() as i64)
+        });
+        let mut output = abi::Output {
+            struct_size: size_of::<abi::Output>() as i64,
+            increment: outputs.increment[piece.clone()].as_mut_ptr(),
+            direction: at(&mut outputs.direction, &piece, 3),
+            state: if variables == 0 {
+                null
+            } else {
+                at(&mut outputs.state, &piece, variables)
+            },
+            status,
+            first_bad: -1,
+            dt_factor: 0.0,
+            missing: 0,
+            text,
+            text_size,
+            d_pressure: at(&mut outputs.d_pressure, &piece, 1),
+        };
+        let request = bit(!output.direction.is_null(), abi::WL_OUT_DIRECTION)
+            | bit(!output.state.is_null(), abi::WL_OUT_STATE)
+            | bit(!output.status.is_null(), abi::WL_OUT_STATUS)
+            | bit(!output.d_pressure.is_null(), abi::WL_OUT_D_PRESSURE);
+        let view = batch.view(piece, request, scratch);
+        let before = FloatEnv::capture();
+        // SAFETY: `Batch` checked that every column reaches over its points, `fits` that every output does; outputs are
+        // borrowed as exclusive, so they overlap nothing; `scratch` and the batch outlive the call.
+        let status = unsafe { self.created.evaluate(&view, &mut output) };
+        if let Some(change) = before.changed_since() {
+            before.restore();
+            self.warn_of_float_env(&change.to_string());
+        }
+        Raw {
+            status,
+            first_bad: output.first_bad,
+            dt_factor: output.dt_factor,
+            missing: output.missing,
+        }
+    }
+
+    #[cold]
+    fn warn_of_float_env(&self, change: &str) {
+        if !self.float_warned.swap(true, Ordering::Relaxed) {
+            let library = self.created.law.library();
+            let law = &self.descriptor().name;
+            self.warnings.lock().unwrap_or_else(PoisonError::into_inner).push(format!(
+                "law `{law}` of `{library}` changed the floating-point environment while it was evaluated ({change}); \
+                 it is put back after every call"
+            ));
+        }
+    }
+
+    /// Checks the answers of one piece, while they are in cache.
+    #[inline]
+    fn check(
+        &self,
+        batch: &Batch<'_>,
+        piece: Range<usize>,
+        outputs: &Outputs<'_>,
+    ) -> Result<(), EvaluateError> {
+        let law = self.descriptor();
+        let found = sweep(&outputs.increment[piece.clone()]);
+        let mut good = found.finite && (found.non_negative || !law.claims(Claim::NonNegative));
+        if let Some(direction) = &outputs.direction {
+            good &= unit_lengths(&direction[3 * piece.start..3 * piece.end]);
+        }
+        if let Some(state) = &outputs.state {
+            let variables = law.state.len();
+            good &= sweep(&state[variables * piece.start..variables * piece.end]).finite;
+        }
+        if let Some(d_pressure) = &outputs.d_pressure {
+            good &= no_nan(&d_pressure[piece.clone()]);
+        }
+        if good {
+            Ok(())
+        } else {
+            Err(self.broken(batch, piece, outputs))
+        }
+    }
+}
+
+impl Evaluator for LawInstance {
+    fn descriptor(&self) -> &LawDescriptor {
+        &self.created.law.descriptor
+    }
+
+    fn evaluate(
+        &self,
+        batch: &Batch<'_>,
+        outputs: &mut Outputs<'_>,
+    ) -> Result<Evaluation, EvaluateError> {
+        self.evaluate_watched(batch, outputs, |_| {})
+    }
+
+    fn take_warnings(&self) -> Vec<String> {
+        std::mem::take(&mut self.warnings.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+fn bit(set: bool, bit: i64) -> i64 {
+    if set { bit } else { 0 }
+}
+
+fn at<T>(array: &mut Option<&mut [T]>, piece: &Range<usize>, width: usize) -> *mut T {
+    match array {
+        Some(array) => array[width * piece.start..width * piece.end].as_mut_ptr(),
+        None => std::ptr::null_mut(),
+    }
+}
+
+/// Checks that batch and outputs are made for this law and for each other.
+#[inline]
+pub(super) fn fits(
+    law: &LawDescriptor,
+    batch: &Batch<'_>,
+    outputs: &Outputs<'_>,
+) -> Result<(), EvaluateError> {
+    if !std::ptr::eq(batch.descriptor(), law) && batch.descriptor() != law {
+        return Err(EvaluateError::OtherLaw {
+            law: law.name.clone(),
+            found: batch.descriptor().name.clone(),
+        });
+    }
+    let points = batch.points();
+    let variables = law.state.len();
+    let length = |output: &str, found: usize, expected: usize| {
+        if found == expected {
+            return Ok(());
+        }
+        Err(EvaluateError::OutputLength {
+            law: law.name.clone(),
+            output: output.to_owned(),
+            found,
+            expected,
+        })
+    };
+    let written = |item: OutputItem| {
+        if law.writes(item) {
+            return Ok(());
+        }
+        Err(EvaluateError::NotWritten {
+            law: law.name.clone(),
+            output: item.name().to_owned(),
+        })
+    };
+    length("increment", outputs.increment.len(), points)?;
+    if let Some(direction) = &outputs.direction {
+        written(OutputItem::Direction)?;
+        length("direction", direction.len(), 3 * points)?;
+    }
+    match &outputs.state {
+        Some(state) => length("state", state.len(), variables * points)?,
+        None if variables > 0 => length("state", 0, variables * points)?,
+        None => {}
+    }
+    if let Some(status) = &outputs.status {
+        written(OutputItem::Status)?;
+        length("status", status.len(), points)?;
+    }
+    if let Some(d_pressure) = &outputs.d_pressure {
+        written(OutputItem::DPressure)?;
+        length("d_pressure", d_pressure.len(), points)?;
+    }
+    Ok(())
+}
