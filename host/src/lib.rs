@@ -5,10 +5,17 @@
 //! [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`reference`] holds exact answers.
 
 pub mod apdl;
+pub mod cli;
 pub mod contact;
+pub mod error;
+pub mod exit_code;
 pub mod integrator;
 pub mod law;
 pub mod output;
 pub mod record;
 pub mod reference;
 pub mod scene;
+pub mod templates;
+
+pub use error::Error;
+pub use exit_code::ExitCode;

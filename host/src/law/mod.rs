@@ -10,6 +10,7 @@ mod checks;
 pub mod constants;
 pub mod describe;
 pub mod descriptor;
+pub mod embedded;
 pub mod entry;
 pub mod evaluation;
 pub mod fields;
@@ -19,6 +20,7 @@ pub mod handle;
 #[cfg(feature = "layout-check")]
 pub mod layout_check;
 pub mod loader;
+pub mod lookup;
 mod number_text;
 mod table;
 pub mod values;
