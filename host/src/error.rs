@@ -7,6 +7,7 @@ use crate::contact::prescribed::HistoryError;
 use crate::exit_code::ExitCode;
 use crate::law::build::BuildError;
 use crate::law::file_facts::FileFactsError;
+use crate::law::isolate::IsolateError;
 use crate::law::lookup::LookupError;
 use crate::law::{EvaluateError, LoadError};
 use crate::output::OutputError;
@@ -45,6 +46,9 @@ pub enum Error {
     /// A library gives no law.
     #[error(transparent)]
     Load(#[from] LoadError),
+    /// A law could not be opened in a process of its own.
+    #[error(transparent)]
+    Isolate(#[from] IsolateError),
     /// A law failed at a point.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),

@@ -7,6 +7,7 @@ use crate::law::EvaluateError;
 use crate::law::LoadError;
 use crate::law::build::BuildError;
 use crate::law::file_facts::FileFactsError;
+use crate::law::isolate::IsolateError;
 use crate::output::OutputError;
 use crate::scene::Problem;
 
@@ -95,6 +96,10 @@ impl ExitCode {
             Error::Load(error) if error.code_has_run() => Self::LawFailed,
             Error::Load(LoadError::File(error)) => of_file(error),
             Error::Load(_) => Self::InputWrong,
+            Error::Isolate(error) if error.code_has_run() => Self::LawFailed,
+            Error::Isolate(IsolateError::Start { .. }) => Self::ReadWriteFailed,
+            Error::Isolate(IsolateError::Load(LoadError::File(error))) => of_file(error),
+            Error::Isolate(_) => Self::InputWrong,
             Error::Evaluate(error) => match error {
                 EvaluateError::OtherLaw { .. }
                 | EvaluateError::OutputLength { .. }

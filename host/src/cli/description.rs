@@ -111,7 +111,9 @@ fn degree(law: &LawDescriptor) -> String {
     match law.pressure_degree {
         Degree::Unclaimed => String::new(),
         Degree::Value(value) => number(value),
-        Degree::Constant(index) => law.constants.get(index).map_or_else(String::new, |c| format!("constant {}", c.name)),
+        Degree::Constant(index) => {
+            law.constants.get(index).map_or_else(String::new, |c| format!("constant {}", c.name))
+        }
     }
 }
 

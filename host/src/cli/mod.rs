@@ -27,12 +27,19 @@ use clap::Parser;
 
 use crate::error::Error;
 use crate::exit_code::ExitCode;
+use crate::law::embedded;
+use crate::law::isolate::{WORKER_COMMAND, worker_main};
 use args::{Arguments, Command};
 use console::Console;
 
 /// Runs the program with these arguments, the first one being its own name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
+    if arguments.get(1).is_some_and(|word| word == WORKER_COMMAND) {
+        let words: Vec<String> = arguments[2..].iter().map(|word| word.to_string_lossy().into_owned()).collect();
+        // A worker speaks to its parent alone, by its channel and its exit code.
+        std::process::exit(worker_main(&words, &embedded::entry));
+    }
     let parsed = match Arguments::try_parse_from(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => return args::refuse(&error, &arguments),

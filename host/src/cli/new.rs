@@ -18,8 +18,7 @@ pub(super) fn command(console: &Console, arguments: &NewArguments) -> Result<Exi
         let known = values.map(|value| value.get_name().to_owned()).collect();
         return Err(UsageError::NoLanguage { known }.into());
     };
-    let wanted =
-        NewLaw { folder: arguments.folder.clone(), language: language.into(), program: program_as_typed() };
+    let wanted = NewLaw { folder: arguments.folder.clone(), language: language.into(), program: program_as_typed() };
     let created = templates::create(&wanted)?;
     if console.json {
         console.document(&json!({

@@ -1,6 +1,6 @@
-//! From the name of a law in a scene, or on the command line, to a law that is loaded.
+//! From the name of a law in a scene, or on the command line, to a law that can be called.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use tempfile::TempDir;
 
@@ -10,23 +10,24 @@ use super::inspect::opened_embedded;
 use super::interrupt::Interrupt;
 use crate::error::{Error, UsageError};
 use crate::law::build::BuildRequest;
+use crate::law::file_facts::FileFacts;
+use crate::law::isolate::{IsolateOptions, IsolatedLaw, Source};
 use crate::law::lookup::{self, LawSource};
-use crate::law::{Law, LoadError, LoadOptions, Plugin};
+use crate::law::{Evaluator, LoadError, LoadOptions, Plugin};
 use crate::scene::{Located, Scene};
 
-/// A law of a scene, loaded but not created.
-#[derive(Debug)]
+/// A law of a scene, ready to be called.
 pub(super) struct OpenedLaw {
-    /// The library, or this program's own laws.
-    pub(super) plugin: Plugin,
-    /// The law.
-    pub(super) law: Law,
+    /// The law, in this process or in a worker of its own.
+    pub(super) evaluator: Box<dyn Evaluator>,
     /// The path or name that it came from, for reports.
     pub(super) origin: String,
-    /// The library's file, where there is one.
-    pub(super) library: Option<PathBuf>,
+    /// The facts of the library's file; `None` for a law of this program.
+    pub(super) facts: Option<FileFacts>,
     /// Wall time of compiling it, s; `None` where nothing was compiled.
     pub(super) build_seconds: Option<f64>,
+    /// What was put right while it was loaded.
+    pub(super) warnings: Vec<String>,
     /// Where it was built; it goes when the law goes.
     _room: Option<TempDir>,
 }
@@ -37,6 +38,7 @@ pub(super) fn open(
     interrupt: &Interrupt,
     scene: &Scene,
     instead: Option<&str>,
+    isolate: bool,
 ) -> Result<OpenedLaw, Error> {
     let found = match instead {
         Some(name) => lookup::find(name, Path::new("")).map_err(|error| Located::new(error, None))?,
@@ -45,15 +47,10 @@ pub(super) fn open(
             lookup::find(&scene.law.plugin, base).map_err(|error| scene.error_at("law.use", error))?
         }
     };
-    let options = LoadOptions { sha256: scene.law.sha256.clone() };
-    let mut room = None;
-    let mut build_seconds = None;
-    let (plugin, library, origin) = match found.source {
-        LawSource::Embedded(name) => (opened_embedded(name)?, None, format!("embedded:{name}")),
-        LawSource::Library(path) => {
-            let origin = path.display().to_string();
-            (Plugin::open(&path, &options)?, Some(path), origin)
-        }
+    let (mut room, mut build_seconds) = (None, None);
+    let (origin, source) = match found.source {
+        LawSource::Embedded(name) => (format!("embedded:{name}"), Source::Embedded(name.to_owned())),
+        LawSource::Library(path) => (path.display().to_string(), Source::File(path)),
         LawSource::Source(path) => {
             let place = temporary()?;
             let library = place.path().join(library_name(&path));
@@ -61,13 +58,29 @@ pub(super) fn open(
             let origin = path.display().to_string();
             let request =
                 BuildRequest { sources: vec![path], output: Some(library.clone()), ..BuildRequest::default() };
-            let built = interrupt.over(compiled(console, &request))?;
-            build_seconds = Some(built.seconds);
-            (Plugin::open(&library, &options)?, Some(library), origin)
+            build_seconds = Some(interrupt.over(compiled(console, &request))?.seconds);
+            (origin, Source::File(library))
         }
     };
-    let law = plugin.law(found.law.as_deref()).map_err(|error| several(error, &origin))?.clone();
-    Ok(OpenedLaw { plugin, law, origin, library, build_seconds, _room: room })
+    let facts = match &source {
+        Source::File(path) => Some(FileFacts::read(path)?),
+        Source::Embedded(_) => None,
+    };
+    let (sha256, options, law) = (scene.law.sha256.clone(), scene.law.options.clone(), found.law);
+    let mut warnings = Vec::new();
+    let evaluator: Box<dyn Evaluator> = if isolate {
+        let wanted = IsolateOptions { sha256, law, options, ..IsolateOptions::new(source) };
+        Box::new(IsolatedLaw::open(&wanted)?)
+    } else {
+        let plugin = match &source {
+            Source::File(path) => Plugin::open(path, &LoadOptions { sha256 })?,
+            Source::Embedded(name) => opened_embedded(name)?,
+        };
+        warnings.extend_from_slice(plugin.warnings());
+        let law = plugin.law(law.as_deref()).map_err(|error| several(error, &origin))?;
+        Box::new(law.create(options.as_deref())?)
+    };
+    Ok(OpenedLaw { evaluator, origin, facts, build_seconds, warnings, _room: room })
 }
 
 /// Says how a scene names one of several laws.

@@ -61,7 +61,8 @@ impl Summary {
             line("ended early", reason);
         }
         let built = self.build_time_s.map_or_else(String::new, |s| format!(", and {} compiling the law", elapsed(s)));
-        let run = format!("{}{built} ({} steps, {} points)", elapsed(self.run_time_s), self.steps, self.points_evaluated);
+        let run =
+            format!("{}{built} ({} steps, {} points)", elapsed(self.run_time_s), self.steps, self.points_evaluated);
         match &self.error {
             Some((reference, norm, value)) => {
                 line("error, run time", &format!("{} ({norm}, against {reference}) in {run}", significant(*value, 3)));

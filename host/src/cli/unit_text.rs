@@ -98,9 +98,10 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        assert_eq!(["0", "1e9", "0.25", "1e-14", "inf"].map(|n| number(n.parse().unwrap())), [
-            "0", "1e9", "0.25", "1e-14", "inf"
-        ]);
+        assert_eq!(
+            ["0", "1e9", "0.25", "1e-14", "inf"].map(|n| number(n.parse().unwrap())),
+            ["0", "1e9", "0.25", "1e-14", "inf"]
+        );
         assert_eq!(significant(7.322_799_325_1e-6, 11), "7.3227993251e-6");
         assert_eq!((significant(123.456, 4), significant(0.0, 3)), ("123.5".to_owned(), "0".to_owned()));
         assert_eq!((elapsed(0.0032), elapsed(125.0)), ("3.20 ms".to_owned(), "2 min 5 s".to_owned()));

@@ -284,6 +284,37 @@ pub enum EvaluateError {
     },
 }
 
+impl Evaluation {
+    /// The point that it names, if it names one.
+    pub fn at_mut(&mut self) -> Option<&mut PointInputs> {
+        match self {
+            Self::Good => None,
+            Self::Unreliable { at, .. } | Self::CutStep { at, .. } => at.as_mut(),
+        }
+    }
+}
+
+impl EvaluateError {
+    /// The point that it names, if it names one.
+    pub fn at_mut(&mut self) -> Option<&mut PointInputs> {
+        match self {
+            Self::OtherLaw { .. }
+            | Self::OutputLength { .. }
+            | Self::NotWritten { .. }
+            | Self::Channel { .. } => None,
+            Self::OutOfDomain { at, .. }
+            | Self::MissingInput { at, .. }
+            | Self::Failed { at, .. }
+            | Self::UnknownStatus { at, .. }
+            | Self::BadFactor { at, .. }
+            | Self::WorkerLost { at, .. } => at.as_mut(),
+            Self::NotFinite { at, .. }
+            | Self::Negative { at, .. }
+            | Self::DirectionLength { at, .. } => Some(at),
+        }
+    }
+}
+
 fn place(at: &Option<PointInputs>) -> String {
     match at {
         Some(at) => at.to_string(),

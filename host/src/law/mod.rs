@@ -17,10 +17,12 @@ pub mod fields;
 pub mod file_facts;
 pub mod float_env;
 pub mod handle;
+pub mod isolate;
 #[cfg(feature = "layout-check")]
 pub mod layout_check;
 pub mod loader;
 pub mod lookup;
+pub mod memory;
 mod number_text;
 mod table;
 pub mod values;
@@ -32,5 +34,11 @@ pub use entry::{Embedded, Entry, LibraryFile};
 pub use evaluation::{EvaluateError, Evaluation, Evaluator, NamedValues, PointInputs};
 pub use fields::{Claim, Claims, Field, Fields, Flag, Flags, OutputItem, OutputItems};
 pub use handle::LawInstance;
+pub use isolate::{IsolateError, IsolateOptions, IsolatedLaw, Source};
 pub use loader::{Law, LoadError, LoadOptions, Plugin};
 pub use values::{CallNumbers, Indices, UnitSizes, Values};
+
+#[cfg(test)]
+mod test_laws;
+#[cfg(test)]
+mod tests;

@@ -66,7 +66,7 @@ pub fn create(wanted: &NewLaw) -> Result<CreatedLaw, TemplateError> {
         command(&["run"], &wanted.folder.join("scene.toml")),
     ];
     let fill = |text: &str| {
-                text.replace("{{name}}", &name)
+        text.replace("{{name}}", &name)
             .replace("{{library}}", &library)
             .replace("{{source}}", &source)
             .replace("{{language}}", &wanted.language.to_string())

@@ -131,6 +131,7 @@ impl<'a> BatchBuilder<'a> {
             }
         }
         let store = Store {
+            numbers: self.numbers,
             descriptor: law,
             view,
             columns_are_uniform: columns.iter().all(|column| column.step == 0),

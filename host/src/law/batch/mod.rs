@@ -10,14 +10,17 @@ use wearlaw_plugin_api::abi;
 
 use super::descriptor::LawDescriptor;
 use super::evaluation::{NamedValues, PointInputs};
+use super::values::CallNumbers;
 
 mod builder;
 mod columns;
 mod outputs;
+mod spans;
 
 pub use builder::BatchBuilder;
+pub(in crate::law) use columns::column_of;
+use columns::index_column_of;
 use columns::{advance, behind};
-use columns::{column_of, index_column_of};
 pub use outputs::Outputs;
 
 /// Why a batch cannot be built.
@@ -86,6 +89,7 @@ pub struct Batch<'a> {
 }
 
 struct Store<'a> {
+    numbers: CallNumbers,
     descriptor: &'a LawDescriptor,
     /// Columns begin at the first point of the whole batch; `constants` and `inputs` are set per call.
     view: abi::View,
@@ -117,6 +121,11 @@ impl<'a> Batch<'a> {
     /// Index of its first point in the batch that was built.
     pub fn first(&self) -> usize {
         self.first
+    }
+
+    /// The numbers that hold for all points.
+    pub fn numbers(&self) -> &CallNumbers {
+        &self.store.numbers
     }
 
     /// The law that it was built for.
