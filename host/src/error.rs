@@ -11,7 +11,9 @@ use crate::law::isolate::IsolateError;
 use crate::law::lookup::LookupError;
 use crate::law::{EvaluateError, LoadError};
 use crate::output::OutputError;
+use crate::plan::{PlanError, PlanProblem};
 use crate::scene::{Located, SceneError};
+use crate::solve::SolveError;
 use crate::templates::TemplateError;
 
 /// Whatever can end a command early.
@@ -52,6 +54,12 @@ pub enum Error {
     /// A law failed at a point.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
+    /// The scene asks for what it cannot have.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The run ended before its time.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
     /// A prescribed history is wrong.
     #[error(transparent)]
     History(#[from] HistoryError),
@@ -139,6 +147,10 @@ impl Error {
     pub fn render(&self, color: bool) -> String {
         match self {
             Self::Scene(error) => error.render(color),
+            Self::Plan(error) => match &*error.problem {
+                PlanProblem::Deck(deck @ DeckError::Command(_)) => deck.render(),
+                _ => error.render(color),
+            },
             Self::Lookup(error) => error.render(color),
             Self::Deck(error @ DeckError::Command(_)) => error.render(),
             other => Located::new(printable(&other.to_string()), None).render(color),
@@ -155,6 +167,7 @@ impl Error {
         };
         let location = match self {
             Self::Scene(error) => error.location.as_ref(),
+            Self::Plan(error) => error.location.as_ref(),
             Self::Lookup(error) => error.location.as_ref(),
             Self::Deck(DeckError::Command(found)) => {
                 place(&found.source, found.line, found.column);
@@ -172,6 +185,7 @@ impl Error {
         }
         match self {
             Self::Scene(error) => json["message"] = error.problem.to_string().into(),
+            Self::Plan(error) => json["message"] = error.problem.to_string().into(),
             Self::Lookup(error) => json["message"] = error.problem.to_string().into(),
             Self::Deck(DeckError::Command(found)) => json["message"] = found.problem.to_string().into(),
             Self::Build(error) if !error.messages().is_empty() => json["compiler"] = error.messages().into(),

@@ -2,14 +2,19 @@
 
 use std::io::ErrorKind;
 
+use crate::apdl::DeckError;
+use crate::contact::prescribed::HistoryError;
 use crate::error::Error;
+use crate::integrator::AdvanceError;
 use crate::law::EvaluateError;
 use crate::law::LoadError;
 use crate::law::build::BuildError;
 use crate::law::file_facts::FileFactsError;
 use crate::law::isolate::IsolateError;
 use crate::output::OutputError;
+use crate::plan::PlanProblem;
 use crate::scene::Problem;
+use crate::solve::{PointError, ReferenceError, SolveError};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -87,7 +92,7 @@ impl ExitCode {
                 _ => Self::InputWrong,
             },
             Error::Deck(error) => match error {
-                crate::apdl::DeckError::Read { cause, .. } => of_reading(cause.kind()),
+                DeckError::Read { cause, .. } => of_reading(cause.kind()),
                 _ => Self::InputWrong,
             },
             Error::Lower { .. } | Error::Usage(_) | Error::Lookup(_) => Self::InputWrong,
@@ -100,14 +105,14 @@ impl ExitCode {
             Error::Isolate(IsolateError::Start { .. }) => Self::ReadWriteFailed,
             Error::Isolate(IsolateError::Load(LoadError::File(error))) => of_file(error),
             Error::Isolate(_) => Self::InputWrong,
-            Error::Evaluate(error) => match error {
-                EvaluateError::OtherLaw { .. }
-                | EvaluateError::OutputLength { .. }
-                | EvaluateError::NotWritten { .. } => Self::ProgramFault,
-                _ => Self::LawFailed,
+            Error::Evaluate(error) => of_evaluating(error),
+            Error::Plan(error) => match &*error.problem {
+                PlanProblem::History(error) => of_history(error),
+                PlanProblem::Deck(DeckError::Read { cause, .. }) => of_reading(cause.kind()),
+                _ => Self::InputWrong,
             },
-            Error::History(error) if error.is_io() => Self::ReadWriteFailed,
-            Error::History(_) => Self::InputWrong,
+            Error::Solve(error) => of_solving(error),
+            Error::History(error) => of_history(error),
             Error::Output(error) => match error {
                 OutputError::NotAResult { .. } | OutputError::NotAFolder { .. } | OutputError::InTheWay { .. } => {
                     Self::InputWrong
@@ -125,6 +130,41 @@ impl ExitCode {
 }
 
 /// A name that leads nowhere was typed wrongly; anything else is the machine's.
+fn of_history(error: &HistoryError) -> ExitCode {
+    if error.is_io() { ExitCode::ReadWriteFailed } else { ExitCode::InputWrong }
+}
+
+fn of_evaluating(error: &EvaluateError) -> ExitCode {
+    match error {
+        EvaluateError::OtherLaw { .. } | EvaluateError::OutputLength { .. } | EvaluateError::NotWritten { .. } => {
+            ExitCode::ProgramFault
+        }
+        _ => ExitCode::LawFailed,
+    }
+}
+
+fn of_solving(error: &SolveError) -> ExitCode {
+    match error {
+        SolveError::History(error) => of_history(error),
+        SolveError::NoDuration { .. } | SolveError::HistoryTooShort { .. } => ExitCode::InputWrong,
+        SolveError::Advance { source, .. } => match source {
+            AdvanceError::Evaluate(PointError::Law(error)) => of_evaluating(error),
+            AdvanceError::Evaluate(PointError::Batch(_)) => ExitCode::ProgramFault,
+            AdvanceError::Evaluate(PointError::Direction { by_law: false, .. }) => ExitCode::InputWrong,
+            AdvanceError::Evaluate(PointError::Direction { .. }) | AdvanceError::SmallestStep { .. } => {
+                ExitCode::LawFailed
+            }
+            AdvanceError::Tolerance { .. } => ExitCode::NumbersFailed,
+        },
+        SolveError::Threads { .. } => ExitCode::ReadWriteFailed,
+        SolveError::Reference(ReferenceError::Read { source, .. }) => match source.kind() {
+            csv::ErrorKind::Io(cause) => of_reading(cause.kind()),
+            _ => ExitCode::InputWrong,
+        },
+        SolveError::Reference(_) => ExitCode::InputWrong,
+    }
+}
+
 fn of_reading(kind: ErrorKind) -> ExitCode {
     match kind {
         ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => ExitCode::InputWrong,
