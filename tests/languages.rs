@@ -232,6 +232,7 @@ fn archard_agrees_in_every_language() {
                 )
             })
             .collect();
+    // The law written in Rust joins `answers` here; its library lies in the folder of this test's binary.
     let (first, right) = answers.remove(0);
     for (name, found) in answers {
         let worst = found.iter().zip(&right).map(|(a, b)| ulps(*a, *b)).max();
