@@ -4,10 +4,10 @@
  * SPDX-License-Identifier: MIT OR Apache-2.0
  */
 
-#ifndef WEARLAW_ENTRY_HPP
+#if !defined(WEARLAW_HPP)
+#include "wearlaw.hpp" /* which includes this file in its place */
+#elif !defined(WEARLAW_ENTRY_HPP)
 #define WEARLAW_ENTRY_HPP
-
-#include "wearlaw.hpp"
 
 namespace wearlaw {
 namespace detail {

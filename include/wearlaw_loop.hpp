@@ -7,10 +7,10 @@
  * SPDX-License-Identifier: MIT OR Apache-2.0
  */
 
-#ifndef WEARLAW_LOOP_HPP
+#if !defined(WEARLAW_HPP)
+#include "wearlaw.hpp" /* which includes this file in its place */
+#elif !defined(WEARLAW_LOOP_HPP)
 #define WEARLAW_LOOP_HPP
-
-#include "wearlaw.hpp"
 
 namespace wearlaw {
 namespace detail {

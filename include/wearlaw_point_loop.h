@@ -7,10 +7,10 @@
  * SPDX-License-Identifier: MIT OR Apache-2.0
  */
 
-#ifndef WEARLAW_POINT_LOOP_H
+#if !defined(WEARLAW_POINT_H)
+#include "wearlaw_point.h" /* which includes this file in its place */
+#elif !defined(WEARLAW_POINT_LOOP_H)
 #define WEARLAW_POINT_LOOP_H
-
-#include "wearlaw_point.h"
 
 #define WL_BLOCK 256
 
@@ -64,7 +64,8 @@ static const int64_t wl_absent_index = -1;
 #endif
 
 /* m points whose scalars and state are at unit step and whose constants are uniform; answers 0 if all are WL_OK. */
-WL_INLINE int32_t wl_point_block(const wl_point_columns *k, wl_point_in in, const wl_point_constants c, int64_t m,
+WL_INLINE int32_t wl_point_block(const wl_point_columns *k WL_UNUSED, wl_point_in in,
+                                 const wl_point_constants c, int64_t m,
                                  double *WL_RESTRICT increment, double *WL_RESTRICT slope WL_UNUSED,
                                  double *WL_RESTRICT direction WL_UNUSED, double *WL_RESTRICT end WL_UNUSED) {
     int32_t worst = 0;
@@ -90,7 +91,7 @@ WL_INLINE int32_t wl_point_block(const wl_point_columns *k, wl_point_in in, cons
 
 /* One point at any step; a text is wanted if `text` is given. An unknown status counts as WL_FAILED. */
 WL_INLINE int32_t wl_point_one(const wl_point_columns *k, const wl_column *constants WL_UNUSED, wl_point_in in,
-                               int64_t i, char *text, int64_t text_size, wl_point_out *answer) {
+                               int64_t i WL_UNUSED, char *text, int64_t text_size, wl_point_out *answer) {
     int32_t status;
     wl_point_constants c = {0};
     wl_point_state s = {0};

@@ -12,9 +12,11 @@ pub mod exit_code;
 pub mod integrator;
 pub mod law;
 pub mod output;
+pub mod plan;
 pub mod record;
 pub mod reference;
 pub mod scene;
+pub mod solve;
 pub mod templates;
 
 pub use error::Error;

@@ -35,4 +35,6 @@
 //! ```
 
 pub mod abi;
+#[cfg(feature = "layout")]
+pub mod layout;
 pub mod sdk;

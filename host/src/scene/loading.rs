@@ -11,7 +11,7 @@ use super::tree::join;
 use super::units::Units;
 
 /// A piece of loading: `[[step]]` or `[[cycle.step]]`. Everything is constant over it but what `ramp` names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Step {
     /// Represented time it takes, not negative. `None` only in the last step of a prescribed scene with a history and
     /// no cycle: to the end of the history.

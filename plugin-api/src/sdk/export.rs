@@ -41,7 +41,21 @@ macro_rules! export_laws {
     };
 }
 
+/// Exports the layout of the ABI structs, for hosts that look at it.
+#[cfg(feature = "layout")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __export_layout {
+    () => {
+        /// Layout of the ABI structs that this plugin was built with.
+        #[allow(unsafe_code)]
+        #[unsafe(export_name = "wearlaw_layout_1")]
+        pub static WEARLAW_LAYOUT_1: $crate::layout::LayoutExport = $crate::layout::EXPORT;
+    };
+}
+
 /// Exports nothing: this crate was built without the feature `layout`.
+#[cfg(not(feature = "layout"))]
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __export_layout {

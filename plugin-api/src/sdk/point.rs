@@ -68,6 +68,8 @@ pub struct Point {
     pub dt: f64,
     /// Time at the start of the substep.
     pub time: f64,
+    /// Temperature of absolute zero, in the scene's temperature scale.
+    pub absolute_zero: f64,
     constants: [f64; MOST],
     inputs: [f64; MOST],
     state: [f64; MOST_STATE],
@@ -317,6 +319,7 @@ fn blank<T: About>(batch: &Batch<'_>) -> Point {
         element_id: -1,
         dt: batch.dt(),
         time: batch.view().time,
+        absolute_zero: batch.view().absolute_zero,
         constants: [f64::NAN; MOST],
         inputs: [f64::NAN; MOST],
         state: [0.0; MOST_STATE],

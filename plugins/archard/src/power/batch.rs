@@ -1,8 +1,8 @@
 //! Batches: columns in, increments out; brings every column to blocks of adjacent numbers.
 
+use super::constants::{Each, Uniform};
 use super::kernel::{GENERAL, kind};
-use super::scale::Scale;
-use super::sweep::{Each, Uniform, run};
+use super::sweep::run;
 
 /// Points gathered at a time where a column is not contiguous or a constant not uniform.
 const BLOCK: usize = 128;
@@ -124,7 +124,7 @@ pub fn increments_by(instructions: Instructions, inputs: &Inputs, out: &mut [f64
     }
     let uniform = match (m.one_for_all(), n.one_for_all()) {
         (Some(m), Some(n)) => match (coefficient.one_for_all(), hardness.one_for_all()) {
-            (Some(k), Some(h)) => Some(Uniform::new(m, n, Scale::new(k, h, dt))),
+            (Some(k), Some(h)) => Some(Uniform::new(m, n, (k, h, dt))),
             _ => None,
         },
         _ => None,

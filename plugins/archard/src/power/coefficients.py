@@ -73,7 +73,7 @@ def exp_tail(f):
 
 def tables():
     zmax = ((sqrt(mpf(2)) - 1) / (sqrt(mpf(2)) + 1)) ** 2 * (1 + mpf(2) ** -40)
-    lg = fit(log_tail, 0, zmax, 7)
+    lg = fit(log_tail, 0, zmax, 6)
     lw = worst(log_tail, lg, 0, zmax)
     half = mpf(1) / 2 * (1 + mpf(2) ** -40)
     ex = fit(exp_tail, -half, half, 9)
@@ -91,7 +91,8 @@ def tables():
         out.append(f"pub(super) const {name}_LO: f64 = {rust(lo)};")
 
     const("C0", "2 / ln 2", C0)
-    const("C1", "2 / (3 ln 2)", C1)
+    out.append("/// 2 / (3 ln 2), rounded to double.")
+    out.append(f"pub(super) const C1: f64 = {rust(C1)};")
     const("LN2", "ln 2", LN2)
 
     def table(name, doc, cs):
@@ -162,7 +163,7 @@ def known():
     print("//! Increments known to the last bit, written by `coefficients.py table`; do not edit.\n")
     print("/// Bits of K, H, dt, p, v, m, n and of the double nearest to (K/H) dt p^m v^n.")
     print("#[rustfmt::skip]")
-    print(f"pub(super) const KNOWN: [[u64; 8]; {len(rows)}] = [")
+    print(f"pub(super) static KNOWN: [[u64; 8]; {len(rows)}] = [")
     print("\n".join(rows))
     print("];")
 

@@ -8,25 +8,22 @@ pub(super) const C0_HI: f64 = 2.8853900817779268;
 /// What `C0_HI` leaves out.
 pub(super) const C0_LO: f64 = 4.0710547481862066e-17;
 /// 2 / (3 ln 2), rounded to double.
-pub(super) const C1_HI: f64 = 0.9617966939259756;
-/// What `C1_HI` leaves out.
-pub(super) const C1_LO: f64 = 5.0577616648125907e-17;
+pub(super) const C1: f64 = 0.9617966939259756;
 /// ln 2, rounded to double.
 pub(super) const LN2_HI: f64 = 0.6931471805599453;
 /// What `LN2_HI` leaves out.
 pub(super) const LN2_LO: f64 = 2.3190468138462996e-17;
 
 /// `(log2((1 + s) / (1 - s)) / s - C0 - C1 z) / z^2` in `z = s^2`, for `|s| <= 3 - sqrt 8`;
-/// largest error 2^-54.1.
-pub(super) const LOG_TAIL: [f64; 8] = [
-    0.5770780163555853,
-    0.4121985831111439,
-    0.3205988979671597,
-    0.26230819146702117,
-    0.22195278870596163,
-    0.19238055945712842,
-    0.16888546717402228,
-    0.16912787582326566,
+/// largest error 2^-51.1.
+pub(super) const LOG_TAIL: [f64; 7] = [
+    0.5770780163555858,
+    0.4121985831098338,
+    0.3205988986801571,
+    0.2623080459898803,
+    0.22196692033039647,
+    0.1916759909945492,
+    0.18630236736117636,
 ];
 
 /// `(2^f - 1 - f ln 2) / f^2` for `|f| <= 1/2`;

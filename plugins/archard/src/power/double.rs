@@ -27,6 +27,13 @@ pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
     (h, a.mul_add(b, -h))
 }
 
+/// 0 if `x` is finite, else not a number: a condition that costs one subtraction.
+#[allow(clippy::eq_op)] // The point of it.
+#[inline(always)]
+pub(super) fn doubt(x: f64) -> f64 {
+    x - x
+}
+
 /// `hi + lo` with `|lo| <= ulp(hi) / 2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Double {

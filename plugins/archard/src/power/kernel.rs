@@ -3,9 +3,9 @@
 //!
 //! The equations and the error budget stand in the documentation of [the module](super).
 
-use super::coefficients::{C0_HI, C0_LO, C1_HI, C1_LO, EXP_TAIL, LN2_HI, LN2_LO, LOG_TAIL};
-use super::double::{Double, fast_two_sum, two_product, two_sum};
-use super::scale::{Scale, ldexp, split};
+use super::coefficients::{C0_HI, C0_LO, C1, EXP_TAIL, LN2_HI, LN2_LO, LOG_TAIL};
+use super::double::{Double, doubt, fast_two_sum, two_product, two_sum};
+use super::scale::{Scale, split, two_to};
 
 /// An exponent of 0: the factor is 1 and its base is not looked at.
 pub(super) const ABSENT: u8 = 0;
@@ -14,8 +14,12 @@ pub(super) const LINEAR: u8 = 1;
 /// Any other exponent.
 pub(super) const GENERAL: u8 = 2;
 
-/// Largest `|m log2 p| + |n log2 v|` that [`lane`] answers for.
+/// Largest `|m log2 p| + |n log2 v|` that [`lane`] answers for at usual exponents.
 const REACH: f64 = 1024.0;
+/// Largest `|m| + |n|` that it answers for.
+const LARGEST: f64 = 32.0;
+/// Largest binary exponent of an increment that it answers for.
+const SPAN: f64 = 960.0;
 
 /// What an exponent asks for.
 #[inline]
@@ -38,57 +42,105 @@ pub(super) struct Outcome {
     pub(super) slope: f64,
 }
 
-/// `c p^m v^n` and its slope `m c p^(m-1) v^n`; not a number where the lane must be left to
-/// [`exact`](super::exact::point): inputs that are 0, subnormal or not finite (but for
-/// the silent points `p <= 0` and `v = 0 < n`, which give 0), and exponents beyond [`REACH`].
+/// `c p^m v^n` and its slope `m c p^(m-1) v^n`; not a number where the point must be left to
+/// [`exact`](super::exact::wide): inputs that are subnormal or not finite, `v = 0` unless `n > 0`,
+/// exponents and results beyond what [`conclude`] answers for.
 ///
 /// `M` and `N` are the kinds of `m` and `n`, at least one of them [`GENERAL`].
 #[inline(always)]
 pub(super) fn lane<const M: u8, const N: u8>(p: f64, v: f64, m: f64, n: f64, c: Scale) -> Outcome {
-    let v = if N == ABSENT { 1.0 } else { v.abs() };
-    let open = p <= 0.0 && p >= -f64::MAX;
-    let still = v == 0.0 && n > 0.0;
-    let known_p = open || (p >= f64::MIN_POSITIVE && p <= f64::MAX);
-    let known_v = still || (v >= f64::MIN_POSITIVE && v <= f64::MAX);
-    let silent = open || still;
-    let ps = if silent { 1.0 } else { p };
-    let vs = if silent { 1.0 } else { v };
+    const ZERO: Double = Double::from(0.0);
+    let a = if M == GENERAL { logarithm(m, p) } else { ZERO };
+    let b = if N == GENERAL { logarithm(n, v) } else { ZERO };
+    conclude::<M, N>(p, v, a, b, m, n, c)
+}
 
-    let (fp, kp) = split(ps);
-    let (fv, kv) = split(vs);
+/// `m log2 |x|` for a normal `x`; some number for any other.
+#[inline(always)]
+pub(super) fn logarithm(m: f64, x: f64) -> Double {
+    let (f, k) = split(x.abs());
+    let x = log2(f, k);
+    let (hi, e) = two_product(m, x.hi);
+    Double {
+        hi,
+        lo: m.mul_add(x.lo, e),
+    }
+}
+
+/// [`lane`] from the two logarithms on (of which a kind that is not general has none).
+///
+/// Conditions are joined without branches and as few as can be: what is not finite becomes a
+/// sum that is not a number, instead of a comparison.
+#[inline(always)]
+pub(super) fn conclude<const M: u8, const N: u8>(
+    p: f64,
+    v: f64,
+    a: Double,
+    b: Double,
+    m: f64,
+    n: f64,
+    c: Scale,
+) -> Outcome {
+    let v = if N == ABSENT { 1.0 } else { v.abs() };
     let (mut hi, mut lo, mut k) = (c.hi, c.lo, c.exponent);
     if M == LINEAR {
-        (hi, lo) = times(hi, lo, fp);
-        k += kp;
+        let (f, e) = split(p);
+        (hi, lo) = times(hi, lo, f);
+        k += e;
     }
     if N == LINEAR {
-        (hi, lo) = times(hi, lo, fv);
-        k += kv;
+        let (f, e) = split(v);
+        (hi, lo) = times(hi, lo, f);
+        k += e;
     }
     let (t, size) = match (M, N) {
         (GENERAL, GENERAL) => {
-            let a = product(m, log2(fp, kp));
-            let b = product(n, log2(fv, kv));
             let (s, e) = two_sum(a.hi, b.hi);
             let lo = e + (a.lo + b.lo);
             (Double { hi: s, lo }, a.hi.abs() + b.hi.abs())
         }
-        (GENERAL, _) => {
-            let a = product(m, log2(fp, kp));
-            (a, a.hi.abs())
-        }
-        _ => {
-            let b = product(n, log2(fv, kv));
-            (b, b.hi.abs())
-        }
+        (GENERAL, _) => (a, a.hi.abs()),
+        _ => (b, b.hi.abs()),
     };
     let (r, k) = exp2(t, hi, lo, k);
-    let known = known_p && known_v && size <= REACH;
+    let wear = r * two_to(k);
+    let slope = m * wear / p;
+
+    // 0, or not a number if p or v is not finite.
+    let doubt = doubt(p) + doubt(v);
+    let still = doubt + if n > 0.0 { 0.0 } else { f64::NAN };
+    let known = (size + doubt <= reach(m, n)) & (k.abs() <= SPAN);
     let settle = |x: f64| {
-        let x = if silent { 0.0 } else { x };
-        if known { x } else { f64::NAN }
+        let x = if known { x } else { f64::NAN };
+        let x = if v >= f64::MIN_POSITIVE {
+            x
+        } else if v == 0.0 {
+            still
+        } else {
+            f64::NAN
+        };
+        if p >= f64::MIN_POSITIVE {
+            x
+        } else if p <= 0.0 {
+            doubt
+        } else {
+            f64::NAN
+        }
     };
-    Outcome { wear: settle(ldexp(r, k)), slope: settle(ldexp(r / fp * m, k - kp)) }
+    Outcome {
+        wear: settle(wear),
+        slope: settle(slope),
+    }
+}
+
+/// Largest `|m log2 p| + |n log2 v|` that [`lane`] answers for, negative if it answers for none:
+/// beyond [`LARGEST`] in sum of exponents the error of a logarithm would show, and a very small
+/// `m` would push a slope out of range on the way.
+#[inline(always)]
+fn reach(m: f64, n: f64) -> f64 {
+    let small = (m.abs() < f64::EPSILON) & (m != 0.0);
+    let usual = (m.abs() + n.abs() <= LARGEST) & !small;
+    if usual { REACH } else { -1.0 }
 }
 
 /// `(hi + lo) f`, not normalised: `|lo|` stays below two units in the last place of `hi`.
@@ -98,20 +150,13 @@ fn times(hi: f64, lo: f64, f: f64) -> (f64, f64) {
     (h, lo.mul_add(f, e))
 }
 
-/// `m (hi + lo)`, not normalised.
-#[inline(always)]
-fn product(m: f64, x: Double) -> Double {
-    let (hi, e) = two_product(m, x.hi);
-    Double { hi, lo: m.mul_add(x.lo, e) }
-}
-
 /// `log2(f 2^k)` for `sqrt(1/2) <= f < sqrt(2)` and an integer `k`.
 ///
-/// With `s = (f - 1) / (f + 1)` and `z = s^2` it is `k + C0 s + C1 s z + s z^2 T(z)`; the first
-/// three terms are carried to twice the precision of a double.
+/// With `s = (f - 1) / (f + 1)` and `z = s^2` it is `k + s u`, `u = C0 + z (C1 + z T(z))`; `s` and
+/// the sum `u` are carried to twice the precision of a double, the small `z (C1 + ..)` is not.
 #[inline(always)]
 pub(super) fn log2(f: f64, k: f64) -> Double {
-    // s = s + s_lo to 2^-104: one division, the remainder from fused multiply-adds.
+    // s + s_lo to 2^-104: one division, the remainder from fused multiply-adds.
     let top = f - 1.0;
     let bottom = f + 1.0;
     let bottom_lo = f - (bottom - 1.0);
@@ -120,26 +165,23 @@ pub(super) fn log2(f: f64, k: f64) -> Double {
     let s_lo = (-s).mul_add(bottom_lo, (-s).mul_add(bottom, top)) * inverse;
 
     let z = s * s;
-    let z_lo = s.mul_add(s, -z);
     let z2 = z * z;
-    let [t0, t1, t2, t3, t4, t5, t6, t7] = LOG_TAIL;
+    let [t0, t1, t2, t3, t4, t5, t6] = LOG_TAIL;
     let low = t3.mul_add(z, t2).mul_add(z2, t1.mul_add(z, t0));
-    let high = t7.mul_add(z, t6).mul_add(z2, t5.mul_add(z, t4));
+    let high = t6.mul_add(z2, t5.mul_add(z, t4));
     let tail = high.mul_add(z2 * z2, low);
 
-    // The cubic term s z (C1 + z T).
-    let (g, g_lo) = fast_two_sum(C1_HI, z * tail);
-    let (cube, cube_e) = two_product(s, z);
-    let cube_lo = s.mul_add(z_lo, cube_e);
-    let (second, second_e) = two_product(cube, g);
-    let second_lo = cube.mul_add(g_lo + C1_LO, cube_lo.mul_add(g, second_e));
-    // The linear one; s_lo is worth s_lo C0 / (1 - z), nearly s_lo C0 (1 + z).
-    let (first, first_e) = two_product(C0_HI, s);
-    let first_lo = s_lo.mul_add(C0_HI.mul_add(z, C0_HI), C0_LO.mul_add(s, first_e));
-
-    let (part, part_e) = fast_two_sum(first, second);
-    let (hi, hi_e) = fast_two_sum(k, part);
-    Double { hi, lo: hi_e + (part_e + (first_lo + second_lo)) }
+    let y = z * tail.mul_add(z, C1);
+    let (u, u_e) = fast_two_sum(C0_HI, y);
+    let u_lo = u_e + C0_LO;
+    // d(s u)/ds = C0 / (1 - z), nearly u + 2 y.
+    let (first, first_e) = two_product(s, u);
+    let first_lo = s_lo.mul_add(y.mul_add(2.0, u), s.mul_add(u_lo, first_e));
+    let (hi, hi_e) = fast_two_sum(k, first);
+    Double {
+        hi,
+        lo: hi_e + first_lo,
+    }
 }
 
 /// `(hi + lo) 2^(t + k)` as a double near 1 and a binary exponent.

@@ -11,6 +11,8 @@ const ONE: u64 = 0x3ff0_0000_0000_0000;
 const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
 /// Bits of 2^52: a number below 2^52 in the low bits of this one reads as 2^52 plus it.
 const TWO_52: u64 = 0x4330_0000_0000_0000;
+/// 1.5 * 2^52 + 1023: adding it rounds to an integer and leaves it, biased, in the low bits.
+const BIASED: f64 = 6_755_399_441_055_744.0 + 1023.0;
 const TWO_54: f64 = 18_014_398_509_481_984.0;
 
 /// `x = f 2^k` with `sqrt(1/2) <= f < sqrt(2)`, for normal `x > 0`; exact.
@@ -36,15 +38,16 @@ pub(super) fn split_any(x: f64) -> (f64, f64) {
 /// The power is applied in two halves: if the result is not zero, the first product is normal.
 #[inline(always)]
 pub(super) fn ldexp(x: f64, k: f64) -> f64 {
-    /// 1.5 * 2^52 + 1023: adding it rounds to an integer and leaves it, biased, in the low bits.
-    const BIASED: f64 = 6_755_399_441_055_744.0 + 1023.0;
     let k = if k < -2040.0 { -2040.0 } else { k };
     let k = if k > 2040.0 { 2040.0 } else { k };
-    let half = 0.5 * k + BIASED;
-    let rest = (k - (half - BIASED)) + BIASED;
-    let a = f64::from_bits(half.to_bits() << 52);
-    let b = f64::from_bits(rest.to_bits() << 52);
-    x * a * b
+    let half = (0.5 * k + BIASED) - BIASED;
+    x * two_to(half) * two_to(k - half)
+}
+
+/// `2^k` for an integer `-1022 <= k <= 1023`; some number for any other.
+#[inline(always)]
+pub(super) fn two_to(k: f64) -> f64 {
+    f64::from_bits((k + BIASED).to_bits() << 52)
 }
 
 /// The product (K/H) dt as `(hi + lo) 2^exponent`.

@@ -1,0 +1,120 @@
+//! Load steps and cycles of a scene as plain numbers.
+
+use crate::plan::{PlanError, PlanProblem};
+use crate::scene::{Drive, Field, Quantity, Scene, Sliding, Step};
+
+/// A quantity that goes linearly from the start to the end of a load step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linear {
+    /// Value at the start.
+    pub from: f64,
+    /// Value at the end.
+    pub to: f64,
+}
+
+impl Linear {
+    /// Value at a fraction of the step.
+    pub fn at(&self, part: f64) -> f64 {
+        if self.from == self.to { self.from } else { self.from + part * (self.to - self.from) }
+    }
+}
+
+/// One load step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LoadStep {
+    /// Its duration; `None`: to the end of the history.
+    pub duration: Option<f64>,
+    /// Contact pressure, the same at every point.
+    pub pressure: Option<Linear>,
+    /// Sliding velocity.
+    pub velocity: Option<Linear>,
+    /// Temperature.
+    pub temperature: Option<Linear>,
+    /// Friction coefficient.
+    pub friction: Option<Linear>,
+}
+
+/// Load steps that are gone through `count` times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// How often.
+    pub count: u64,
+    /// Whether this is a `[[cycle]]`.
+    pub cycle: bool,
+    /// The steps.
+    pub steps: Vec<LoadStep>,
+}
+
+/// The blocks of a scene, in order.
+///
+/// # Errors
+/// Loading that a prescribed scene cannot have.
+pub(super) fn blocks(scene: &Scene, has_history: bool) -> Result<Vec<Block>, PlanError> {
+    if has_history && !scene.cycles.is_empty() && !scene.steps.is_empty() {
+        return Err(scene.error_at("cycle.0", PlanProblem::StepsAndCycles));
+    }
+    let mut blocks = Vec::new();
+    let mut before = Step::default();
+    if !scene.steps.is_empty() || scene.cycles.is_empty() {
+        let steps = lower(scene, "step", &scene.steps, &mut before, false)?;
+        blocks.push(Block { count: 1, cycle: false, steps });
+    }
+    for (index, cycle) in scene.cycles.iter().enumerate() {
+        let base = format!("cycle.{index}.step");
+        let steps = lower(scene, &base, &cycle.steps, &mut before, cycle.count > 1)?;
+        blocks.push(Block { count: cycle.count, cycle: true, steps });
+    }
+    Ok(blocks)
+}
+
+fn lower(
+    scene: &Scene,
+    base: &str,
+    steps: &[Step],
+    before: &mut Step,
+    repeats: bool,
+) -> Result<Vec<LoadStep>, PlanError> {
+    if steps.is_empty() {
+        return Ok(vec![LoadStep::default()]);
+    }
+    let mut lowered = Vec::with_capacity(steps.len());
+    for (index, step) in steps.iter().enumerate() {
+        if matches!(step.sliding, Some(Sliding::Velocity { velocity: Field::File(_) })) {
+            return Err(scene.error_at(&format!("{base}.{index}.velocity"), PlanProblem::VelocityFile));
+        }
+        // The first step of a repeating block follows its last one, from the second round on; a ramp there starts
+        // where every round starts.
+        let previous = if index == 0 && repeats { steps.last().unwrap_or(step) } else { &*before };
+        let linear = |quantity: Quantity| {
+            let to = value(step, quantity)?;
+            let ramped = step.ramp.contains(&quantity);
+            Some(Linear { from: if ramped { value(previous, quantity).unwrap_or(0.0) } else { to }, to })
+        };
+        lowered.push(LoadStep {
+            duration: step.duration,
+            pressure: linear(Quantity::Pressure),
+            velocity: linear(Quantity::Velocity),
+            temperature: linear(Quantity::Temperature),
+            friction: linear(Quantity::Friction),
+        });
+        *before = step.clone();
+    }
+    Ok(lowered)
+}
+
+fn value(step: &Step, quantity: Quantity) -> Option<f64> {
+    match quantity {
+        Quantity::Pressure => match step.drive {
+            Some(Drive::Pressure(pressure)) => Some(pressure),
+            _ => None,
+        },
+        Quantity::Velocity => match step.sliding {
+            Some(Sliding::Velocity { velocity: Field::Uniform(velocity) }) => Some(velocity),
+            Some(Sliding::Stroke { stroke, frequency }) => Some(2.0 * stroke * frequency),
+            _ => None,
+        },
+        Quantity::Temperature => step.temperature,
+        Quantity::Friction => step.friction,
+        Quantity::Load | Quantity::Approach => None,
+    }
+}

@@ -1,0 +1,76 @@
+//! What can go wrong while a plan is carried out.
+
+use thiserror::Error;
+
+use crate::contact::prescribed::HistoryError;
+use crate::integrator::AdvanceError;
+use crate::law::{BatchError, EvaluateError};
+
+/// Why a run ended before its time.
+#[derive(Debug, Error)]
+pub enum SolveError {
+    /// The history could not be read.
+    #[error(transparent)]
+    History(#[from] HistoryError),
+    /// One instant and no duration.
+    #[error("`{history}` has a single time and a load step has no duration, expected `step.duration` or a second time")]
+    NoDuration {
+        /// The history.
+        history: String,
+    },
+    /// The history ends before the loading.
+    #[error("the load steps last {asked} but `{history}` covers {covered}, expected a history at least as long")]
+    HistoryTooShort {
+        /// The history.
+        history: String,
+        /// What the load steps ask for.
+        asked: f64,
+        /// What the history covers.
+        covered: f64,
+    },
+    /// The points could not be advanced over a piece of loading.
+    #[error("load step {load_step}, substep {substep}, from time {time}: {source}")]
+    Advance {
+        /// Number of the load step, from 1.
+        load_step: i64,
+        /// Number of the substep, from 1.
+        substep: i64,
+        /// Time at the start of the substep.
+        time: f64,
+        /// What happened.
+        source: AdvanceError<PointError>,
+    },
+    /// Threads could not be started.
+    #[error("could not start {threads} threads: {text}")]
+    Threads {
+        /// How many were asked for.
+        threads: usize,
+        /// What the system said.
+        text: String,
+    },
+    /// The reference could not be evaluated.
+    #[error(transparent)]
+    Reference(#[from] super::ReferenceError),
+}
+
+/// Why the law could not be evaluated at some points.
+#[derive(Debug, Error)]
+pub enum PointError {
+    /// The law or its worker failed.
+    #[error(transparent)]
+    Law(#[from] EvaluateError),
+    /// The inputs could not be laid out: a fault of the program.
+    #[error(transparent)]
+    Batch(#[from] BatchError),
+    /// A direction that does not lead into the worn body.
+    #[error(
+        "the wear direction d of point {point} has -d.n = {along}, expected more than 0: material would grow or slide \
+         along the surface"
+    )]
+    Direction {
+        /// Index of the point, from 0.
+        point: usize,
+        /// -d.n there.
+        along: f64,
+    },
+}

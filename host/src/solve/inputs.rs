@@ -1,0 +1,501 @@
+//! What a law is given at one moment of a piece: every field it declared, and nothing else.
+
+use std::ops::Range;
+
+use crate::contact::prescribed::{Column, History, Motion};
+use crate::law::{Batch, BatchError, CallNumbers, Field, Indices, LawDescriptor, Values};
+use crate::plan::{Linear, Plan};
+use crate::scene::Basis;
+use crate::solve::schedule::Piece;
+use crate::solve::source::{Rate, Source, map, value, vector, vectors, zip};
+
+/// The default outward normal of the wearing body, +z.
+pub(super) const UP: [f64; 3] = [0.0, 0.0, 1.0];
+/// The default first tangent, +x.
+const ALONG: [f64; 3] = [1.0, 0.0, 0.0];
+
+/// Everything that drives the points over one piece.
+pub(super) struct Drive<'h> {
+    pub(super) pressure: Source<'h>,
+    pub(super) velocity: Source<'h>,
+    slip: [Rate<'h>; 3],
+    pub(super) temperature: Source<'h>,
+    shear: Source<'h>,
+    friction: Source<'h>,
+    normal: [Source<'h>; 3],
+    stress: [Source<'h>; 6],
+    area: Source<'h>,
+    coordinates: [Source<'h>; 3],
+    inputs: Vec<Source<'h>>,
+    motion: Motion,
+}
+
+/// Buffers of one thread.
+#[derive(Default)]
+pub(super) struct Rooms {
+    pressure: Vec<f64>,
+    traction: Vec<f64>,
+    parts: [Vec<f64>; 9],
+    normal: Vec<f64>,
+    tangent: Vec<f64>,
+    velocity: [Vec<f64>; 3],
+    speed: Vec<f64>,
+    slip: Vec<f64>,
+    slip_vector: Vec<f64>,
+    temperature: Vec<f64>,
+    constants: Vec<f64>,
+    shear: Vec<f64>,
+    work: Vec<f64>,
+    stress: Vec<f64>,
+    coefficient: Vec<f64>,
+    area: Vec<f64>,
+    coordinates: Vec<f64>,
+    inputs: Vec<Vec<f64>>,
+    contact: Vec<i64>,
+    ids: Vec<i64>,
+}
+
+/// A moment of a piece at which the law is called for a duration.
+pub(super) struct Moment {
+    /// Fraction of the piece at which the inputs are taken.
+    pub(super) at: f64,
+    /// Fraction of the piece at which the call's time begins.
+    pub(super) from: f64,
+    /// Duration; time.
+    pub(super) dt: f64,
+}
+
+/// What a law remembers, for laws that read it.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Remembered<'m> {
+    pub(super) wear: &'m [f64],
+    pub(super) distance: Values<'m>,
+    pub(super) state: &'m [f64],
+}
+
+impl<'h> Drive<'h> {
+    pub(super) fn new(plan: &Plan, history: Option<&'h History>, piece: &Piece<'_>) -> Drive<'h> {
+        let column = |column: Column| match (history, piece.between) {
+            (Some(history), Some(between)) => Source::column(history.column(column), between),
+            _ => Source::Absent,
+        };
+        let rate = |column: Column| match (history, piece.between) {
+            (Some(history), Some(between)) => Source::rate(history.column(column), between),
+            _ => Rate::Uniform(0.0),
+        };
+        let step = |line: Option<Linear>| line.map_or(Source::Absent, |line| Source::Uniform(piece.linear(line)));
+        let or = |first: Source<'h>, second: Source<'h>| if first.is_absent() { second } else { first };
+        let placed = piece.placed.step;
+        let constant = |value: Option<f64>| value.map(|value| Linear { from: value, to: value });
+        Drive {
+            pressure: or(column(Column::Pressure), step(placed.pressure)),
+            velocity: or(column(Column::Velocity), step(placed.velocity)),
+            slip: match plan.motion {
+                Motion::Slip => [rate(Column::Slip), Rate::Uniform(0.0), Rate::Uniform(0.0)],
+                _ => Column::SLIP_VECTOR.map(rate),
+            },
+            temperature: or(column(Column::Temperature), step(placed.temperature)),
+            shear: column(Column::Shear),
+            friction: or(step(placed.friction), step(constant(plan.friction))),
+            normal: Column::NORMAL.map(column),
+            stress: Column::STRESS.map(column),
+            area: column(Column::Area),
+            coordinates: Column::COORDINATES.map(column),
+            inputs: plan.inputs.iter().map(|input| input.map_or(Source::Absent, column)).collect(),
+            motion: plan.motion,
+        }
+    }
+
+    /// Whether nothing that the law sees changes over the piece but, linearly, the pressure.
+    pub(super) fn only_pressure_changes(&self, plan: &Plan) -> bool {
+        let still = |sources: &[Source<'_>]| sources.iter().all(Source::is_constant);
+        let nodal = plan.material.basis == Basis::NodalStress || plan.fields.contains(Field::NodalTraction);
+        let moving = self.motion == Motion::Velocity && !self.velocity.is_constant();
+        let table = plan.material.constants.varies_in_time();
+        let friction = [Field::FrictionStress, Field::FrictionWork].iter().any(|field| plan.fields.contains(*field));
+        !moving
+            && !table
+            && !nodal
+            && !friction
+            && still(&[self.temperature, self.friction, self.area])
+            && still(&self.normal)
+            && still(&self.coordinates)
+            && still(&self.inputs)
+    }
+
+    /// Whether the pressure does not change over the piece.
+    pub(super) fn pressure_is_constant(&self) -> bool {
+        self.pressure.is_constant()
+    }
+
+    /// Whether the speed is the same at every point.
+    pub(super) fn speed_is_uniform(&self) -> bool {
+        match self.motion {
+            Motion::None => true,
+            Motion::Velocity => !matches!(self.velocity, Source::Rows { .. }),
+            Motion::Slip | Motion::SlipVector => self.slip.iter().all(Rate::is_uniform),
+        }
+    }
+
+    /// Areas of the points.
+    pub(super) fn areas<'b>(&self, range: Range<usize>, room: &'b mut Vec<f64>) -> Values<'b>
+    where
+        'h: 'b,
+    {
+        self.area.at(1.0, range, room)
+    }
+
+    /// The contact pressure at a moment, or the normal traction of nodal stresses that stands for it.
+    pub(super) fn driving_pressure<'b>(
+        &self,
+        plan: &Plan,
+        part: f64,
+        range: Range<usize>,
+        rooms: (&'b mut Vec<f64>, &mut [Vec<f64>; 9]),
+    ) -> Values<'b>
+    where
+        'h: 'b,
+    {
+        if plan.material.basis == Basis::NodalStress {
+            return self.traction(part, range, rooms.0, rooms.1);
+        }
+        self.pressure.at(part, range, rooms.0)
+    }
+
+    /// max(0, -n.sigma.n) with the stress positive in tension.
+    fn traction<'b>(
+        &self,
+        part: f64,
+        range: Range<usize>,
+        room: &'b mut Vec<f64>,
+        parts: &mut [Vec<f64>; 9],
+    ) -> Values<'b> {
+        let points = range.len();
+        let [a, b, c, d, e, f, x, y, z] = parts;
+        let s = [
+            self.stress[0].at(part, range.clone(), a),
+            self.stress[1].at(part, range.clone(), b),
+            self.stress[2].at(part, range.clone(), c),
+            self.stress[3].at(part, range.clone(), d),
+            self.stress[4].at(part, range.clone(), e),
+            self.stress[5].at(part, range.clone(), f),
+        ];
+        let n = [
+            self.normal[0].at(part, range.clone(), x),
+            self.normal[1].at(part, range.clone(), y),
+            self.normal[2].at(part, range, z),
+        ];
+        room.clear();
+        room.extend((0..points).map(|i| {
+            let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k| value(&s[k], i));
+            let [nx, ny, nz] = normal_at(&n, i);
+            let along = nx * nx * xx
+                + ny * ny * yy
+                + nz * nz * zz
+                + 2.0 * (nx * ny * xy + ny * nz * yz + nx * nz * xz);
+            (-along).max(0.0)
+        }));
+        Values::PerPoint(room)
+    }
+
+    /// Outward unit normals at a moment.
+    pub(super) fn normals<'b>(
+        &self,
+        part: f64,
+        range: Range<usize>,
+        room: &'b mut Vec<f64>,
+        parts: &mut [Vec<f64>; 9],
+    ) -> Values<'b> {
+        if self.normal[0].is_absent() {
+            return Values::UniformVector(UP);
+        }
+        let [a, b, c, ..] = parts;
+        let n = [
+            self.normal[0].at(part, range.clone(), a),
+            self.normal[1].at(part, range.clone(), b),
+            self.normal[2].at(part, range.clone(), c),
+        ];
+        vectors(range.len(), room, |i| normal_at(&n, i))
+    }
+
+    /// Lengths of the slip paths from fraction `from` to fraction `to` of a piece that lasts `length`.
+    pub(super) fn paths<'b>(
+        &self,
+        (from, to): (f64, f64),
+        length: f64,
+        range: Range<usize>,
+        room: &'b mut Vec<f64>,
+        parts: &mut [Vec<f64>; 9],
+    ) -> Values<'b> {
+        let dt = (to - from) * length;
+        let [a, b, c, ..] = parts;
+        match self.motion {
+            Motion::None => Values::Uniform(0.0),
+            Motion::Velocity => {
+                let start = self.velocity.at(from, range.clone(), a);
+                let end = self.velocity.at(to, range.clone(), b);
+                zip(&start, &end, range.len(), room, |v, w| path(v, w, dt))
+            }
+            Motion::Slip | Motion::SlipVector => {
+                let speeds = speeds(&self.slip, range, [a, b, c], room);
+                if let Values::Uniform(speed) = speeds {
+                    return Values::Uniform(speed * dt);
+                }
+                room.iter_mut().for_each(|speed| *speed *= dt);
+                Values::PerPoint(room)
+            }
+        }
+    }
+
+    /// The batch of the points of `range` at a moment, handed to `call` together with the pressure and the normals.
+    pub(super) fn with_batch<T, E: From<BatchError>>(
+        &self,
+        site: &Site<'_>,
+        moment: &Moment,
+        range: Range<usize>,
+        remembered: Remembered<'_>,
+        rooms: &mut Rooms,
+        call: impl FnOnce(&Batch<'_>, &Values<'_>, &Values<'_>) -> Result<T, E>,
+    ) -> Result<T, E> {
+        let Site { plan, law, piece, .. } = *site;
+        let (points, part, dt) = (range.len(), moment.at, moment.dt);
+        let fields = plan.fields;
+        let wants = |field: Field| fields.contains(field);
+        let any = |list: &[Field]| list.iter().any(|field| fields.contains(*field));
+        let length = piece.end - piece.start;
+        let start = piece.start + moment.from * length;
+        let mut builder = Batch::builder(law, points).numbers(CallNumbers {
+            dimension: i64::from(plan.dimension),
+            time: start,
+            dt,
+            step_time: start - piece.placed.start,
+            load_step: piece.placed.number,
+            substep: piece.substep,
+            cycle: piece.placed.cycle,
+            material: plan.material.number,
+            reference_temperature: plan.units.reference_temperature.unwrap_or(0.0),
+            absolute_zero: plan.units.absolute_zero(),
+            units: plan.sizes,
+            ..CallNumbers::default()
+        });
+        let pressure = self.driving_pressure(plan, part, range.clone(), (&mut rooms.pressure, &mut rooms.parts));
+        let normals = self.normals(part, range.clone(), &mut rooms.normal, &mut rooms.parts);
+        if wants(Field::NodalTraction) {
+            builder = builder.field(
+                Field::NodalTraction,
+                self.traction(part, range.clone(), &mut rooms.traction, &mut rooms.parts),
+            );
+        }
+        let temperature =
+            if plan.temperature { self.temperature.at(part, range.clone(), &mut rooms.temperature) } else { Values::Absent };
+        let constants =
+            plan.material.constants.at(start + (part - moment.from) * length, &temperature, points, &mut rooms.constants);
+        builder = builder.constant_values(&constants).field(Field::Pressure, pressure).field(Field::Temperature, temperature);
+        if wants(Field::Normal) {
+            builder = builder.field(Field::Normal, normals);
+        }
+        let directed = any(&[Field::Tangent, Field::SlipVector, Field::FrictionStress]);
+        let tangents = match normals {
+            _ if !directed => Values::Absent,
+            Values::UniformVector(_) => Values::UniformVector(ALONG),
+            _ => vectors(points, &mut rooms.tangent, |i| tangent(vector(&normals, i))),
+        };
+        if wants(Field::Tangent) {
+            builder = builder.field(Field::Tangent, tangents);
+        }
+        let [u, v, w] = &mut rooms.velocity;
+        let velocity = match self.motion {
+            Motion::None => [Values::Uniform(0.0); 3],
+            Motion::Velocity => [self.velocity.at(part, range.clone(), u), Values::Uniform(0.0), Values::Uniform(0.0)],
+            Motion::Slip => [self.slip[0].at(range.clone(), u), Values::Uniform(0.0), Values::Uniform(0.0)],
+            Motion::SlipVector => {
+                [self.slip[0].at(range.clone(), u), self.slip[1].at(range.clone(), v), self.slip[2].at(range.clone(), w)]
+            }
+        };
+        let moves = any(&[Field::Velocity, Field::Slip, Field::FrictionWork, Field::FrictionStress, Field::ContactState]);
+        let speed = match self.motion {
+            _ if !moves => Values::Absent,
+            Motion::SlipVector => speed_of(&velocity, points, &mut rooms.speed),
+            _ => map(&velocity[0], &mut rooms.speed, f64::abs),
+        };
+        builder = builder.field(Field::Velocity, speed);
+        let slip = if any(&[Field::Slip, Field::FrictionWork]) {
+            let exact = moment.at != moment.from && self.motion == Motion::Velocity && !self.velocity.is_constant();
+            let to = moment.from + if length > 0.0 { dt / length } else { 0.0 };
+            match site.whole && exact {
+                true => self.paths((moment.from, to), length, range.clone(), &mut rooms.slip, &mut rooms.parts),
+                false => map(&speed, &mut rooms.slip, |speed| speed * dt),
+            }
+        } else {
+            Values::Absent
+        };
+        builder = builder.field(Field::Slip, slip);
+        let moved = |i: usize| match self.motion {
+            Motion::SlipVector => [0, 1, 2].map(|k| value(&velocity[k], i)),
+            _ => vector(&tangents, i).map(|along| along * value(&velocity[0], i)),
+        };
+        if wants(Field::SlipVector) {
+            let vectors = vectors(points, &mut rooms.slip_vector, |i| moved(i).map(|v| v * dt));
+            builder = builder.field(Field::SlipVector, vectors);
+        }
+        if any(&[Field::FrictionWork, Field::FrictionStress, Field::FrictionCoefficient]) {
+            let friction = self.friction.at(part, range.clone(), &mut rooms.coefficient);
+            let shear = match self.shear.is_absent() {
+                false => self.shear.at(part, range.clone(), &mut rooms.shear),
+                true => zip(&friction, &pressure, points, &mut rooms.shear, |mu, p| mu * p.max(0.0)),
+            };
+            if wants(Field::FrictionWork) {
+                let work = zip(&shear, &slip, points, &mut rooms.work, |shear, slip| shear.abs() * slip);
+                builder = builder.field(Field::FrictionWork, work);
+            }
+            if wants(Field::FrictionStress) {
+                let given = !self.shear.is_absent();
+                let stress = vectors(points, &mut rooms.stress, |i| match (given, value(&speed, i)) {
+                    (true, _) => vector(&tangents, i).map(|along| along * value(&shear, i)),
+                    (false, 0.0) => [0.0; 3],
+                    // Friction on the worn body opposes its own motion.
+                    (false, speed) => moved(i).map(|v| -value(&shear, i) * v / speed),
+                });
+                builder = builder.field(Field::FrictionStress, stress);
+            }
+            builder = builder.field(Field::FrictionCoefficient, friction);
+        }
+        if wants(Field::Area) {
+            builder = builder.field(Field::Area, self.area.at(part, range.clone(), &mut rooms.area));
+        }
+        if wants(Field::Coordinates) {
+            let [x, y, z, ..] = &mut rooms.parts;
+            let c = [
+                self.coordinates[0].at(part, range.clone(), x),
+                self.coordinates[1].at(part, range.clone(), y),
+                self.coordinates[2].at(part, range.clone(), z),
+            ];
+            let coordinates = vectors(points, &mut rooms.coordinates, |i| [0, 1, 2].map(|k| value(&c[k], i)));
+            builder = builder.field(Field::Coordinates, coordinates);
+        }
+        if wants(Field::ContactState) {
+            rooms.contact.clear();
+            rooms.contact.extend((0..points).map(|i| contact_state(value(&pressure, i), value(&speed, i))));
+            builder = builder.indices(Field::ContactState, Indices::PerPoint(&rooms.contact));
+        }
+        if wants(Field::PointId) {
+            rooms.ids.clear();
+            rooms.ids.extend(range.clone().map(|i| site.id(i)));
+            builder = builder.indices(Field::PointId, Indices::PerPoint(&rooms.ids));
+        }
+        if wants(Field::AccumulatedWear) {
+            builder = builder.field(Field::AccumulatedWear, Values::PerPoint(remembered.wear));
+        }
+        if wants(Field::AccumulatedSlip) {
+            builder = builder.field(Field::AccumulatedSlip, remembered.distance);
+        }
+        if !law.state.is_empty() {
+            builder = builder.state(Values::PerPoint(remembered.state));
+        }
+        rooms.inputs.resize_with(self.inputs.len(), Vec::new);
+        let inputs: Vec<Values<'_>> = self
+            .inputs
+            .iter()
+            .zip(&mut rooms.inputs)
+            .map(|(source, room)| source.at(part, range.clone(), room))
+            .collect();
+        let batch = builder.inputs(&inputs).build()?;
+        call(&batch, &pressure, &normals)
+    }
+}
+
+/// What does not change over a piece, for all of its points.
+#[derive(Clone, Copy)]
+pub(super) struct Site<'s> {
+    pub(super) plan: &'s Plan,
+    pub(super) law: &'s LawDescriptor,
+    pub(super) piece: &'s Piece<'s>,
+    pub(super) history: Option<&'s History>,
+    /// Whether the law is called for whole substeps rather than as a rate.
+    pub(super) whole: bool,
+}
+
+impl Site<'_> {
+    /// Number of a point in the history's numbering.
+    pub(super) fn id(&self, i: usize) -> i64 {
+        self.history.map_or(i as i64, |history| history.point_ids().get(i))
+    }
+}
+
+fn contact_state(pressure: f64, speed: f64) -> i64 {
+    use wearlaw_plugin_api::abi::{WL_OPEN, WL_SLIDING, WL_STICK};
+    match (pressure > 0.0, speed > 0.0) {
+        (false, _) => WL_OPEN,
+        (true, false) => WL_STICK,
+        (true, true) => WL_SLIDING,
+    }
+}
+
+/// The unit normal at a point; +z where the scene gives none.
+fn normal_at(components: &[Values<'_>; 3], i: usize) -> [f64; 3] {
+    if components[0] == Values::Absent {
+        return UP;
+    }
+    let n = [0, 1, 2].map(|k| value(&components[k], i));
+    let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
+    n.map(|x| x / length)
+}
+
+/// The first tangent at a normal n: +x made perpendicular to n, or +y where n points along x.
+fn tangent(n: [f64; 3]) -> [f64; 3] {
+    let axis = if n[0].abs() < 0.9 { ALONG } else { [0.0, 1.0, 0.0] };
+    let dot: f64 = (0..3).map(|k| axis[k] * n[k]).sum();
+    let t = [0, 1, 2].map(|k| axis[k] - dot * n[k]);
+    let length = t.iter().map(|x| x * x).sum::<f64>().sqrt();
+    t.map(|x| x / length)
+}
+
+/// Length of the path with a velocity that goes linearly from `v` to `w` in `dt`, through zero or not.
+fn path(v: f64, w: f64, dt: f64) -> f64 {
+    if v * w < 0.0 { dt * (v * v + w * w) / (2.0 * (w - v).abs()) } else { 0.5 * (v.abs() + w.abs()) * dt }
+}
+
+fn speed_of<'b>(velocity: &[Values<'_>; 3], points: usize, room: &'b mut Vec<f64>) -> Values<'b> {
+    let at = |i: usize| {
+        let [u, v, w] = [0, 1, 2].map(|k| value(&velocity[k], i));
+        u.hypot(v).hypot(w)
+    };
+    if velocity.iter().all(|values| matches!(values, Values::Uniform(_))) {
+        return Values::Uniform(at(0));
+    }
+    room.clear();
+    room.extend((0..points).map(at));
+    Values::PerPoint(room)
+}
+
+fn speeds<'b>(
+    slip: &[Rate<'_>; 3],
+    range: Range<usize>,
+    [a, b, c]: [&mut Vec<f64>; 3],
+    room: &'b mut Vec<f64>,
+) -> Values<'b> {
+    let velocity = [slip[0].at(range.clone(), a), slip[1].at(range.clone(), b), slip[2].at(range.clone(), c)];
+    speed_of(&velocity, range.len(), room)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_through_zero_count_both_ways() {
+        assert_eq!(path(1.0, 3.0, 2.0), 4.0);
+        assert_eq!(path(-1.0, 1.0, 2.0), 1.0);
+        assert_eq!(path(-1.0, 3.0, 4.0), 0.5 + 4.5);
+    }
+
+    #[test]
+    fn tangents_are_unit_and_in_the_surface() {
+        for n in [UP, [0.6, 0.0, 0.8], [1.0, 0.0, 0.0]] {
+            let t = tangent(n);
+            let (length, dot): (f64, f64) =
+                (t.iter().map(|x| x * x).sum(), (0..3).map(|k| t[k] * n[k]).sum());
+            assert!((length - 1.0).abs() < 1e-15 && dot.abs() < 1e-15, "{n:?} {t:?}");
+        }
+    }
+}
