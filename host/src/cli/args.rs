@@ -201,10 +201,11 @@ pub(super) fn refuse(error: &clap::Error, arguments: &[OsString]) -> ExitCode {
         return if asked_for { ExitCode::Done } else { ExitCode::InputWrong };
     }
     let text = error.render().to_string();
-    let sentence = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+    let sentence: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    let sentence = sentence.join(" ");
     let code = ExitCode::InputWrong;
     let document = serde_json::json!({
-        "error": { "kind": code.word(), "message": printable(sentence) },
+        "error": { "kind": code.word(), "message": printable(sentence.trim_start_matches("error: ")) },
         "exit_code": code.number(),
     });
     super::Console::new(true, false).document(&document).map_or(ExitCode::ReadWriteFailed, |()| code)

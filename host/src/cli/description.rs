@@ -61,8 +61,8 @@ pub(super) fn law_text(law: &LawDescriptor, console: &Console) -> String {
     let mut writes = vec!["increment"];
     writes.extend(law.writes.names());
     line("writes", &writes.join(", "));
-    line("claims", &or_none(&law.claims.names().iter().map(|name| name.replace('_', " ")).collect::<Vec<_>>()));
-    line("flags", &law.flags.names().iter().map(|name| name.replace('_', " ")).collect::<Vec<_>>().join(", "));
+    line("claims", &or_none(&law.claims.names().iter().map(|name| name.replace('_', "-")).collect::<Vec<_>>()));
+    line("flags", &law.flags.names().iter().map(|name| name.replace('_', "-")).collect::<Vec<_>>().join(", "));
     line("pressure degree", &degree(law));
     for (kind, preset, quantities) in [
         ("constants", "default", &law.constants),

@@ -31,17 +31,19 @@ pub struct Found {
 pub enum LookupError {
     /// A bare name that nothing has.
     #[error(
-        "found no law `{name}`{}, expected {}, or a path with a `/` in it or an ending such as .so, .c, .cpp, .f90",
-        searched_words(searched),
-        names(known)
+        "found no law `{name}`, neither in this program ({}) nor as the library {library} with it{}",
+        names(known),
+        suggestion(nearest)
     )]
     Unknown {
         /// The name.
         name: String,
         /// The laws of this program.
         known: Vec<String>,
-        /// The libraries that were looked for.
-        searched: Vec<PathBuf>,
+        /// The file name that was looked for.
+        library: String,
+        /// The law of this program that was probably meant.
+        nearest: Option<&'static str>,
     },
     /// A bare name that is also a file or folder beside the scene.
     #[error("found no law `{name}`; for the {kind} of that name write `./{name}`")]
@@ -100,9 +102,9 @@ fn find_near(name: &str, base: &Path, folders: &[PathBuf]) -> Result<LawSource, 
         let source = path.is_dir() || is_manifest(&path) || Language::of(&path).is_some();
         return Ok(if source { LawSource::Source(path) } else { LawSource::Library(path) });
     }
-    let searched: Vec<PathBuf> = folders.iter().map(|folder| folder.join(library_name(name))).collect();
-    if let Some(library) = searched.iter().find(|path| path.is_file()) {
-        return Ok(LawSource::Library(library.clone()));
+    let mut installed = folders.iter().map(|folder| folder.join(library_name(name)));
+    if let Some(library) = installed.find(|path| path.is_file()) {
+        return Ok(LawSource::Library(library));
     }
     if let Some(own) = own(name) {
         return Ok(LawSource::Embedded(own));
@@ -112,7 +114,8 @@ fn find_near(name: &str, base: &Path, folders: &[PathBuf]) -> Result<LawSource, 
         let kind = if beside.is_dir() { "folder" } else { "file" };
         return Err(LookupError::PathWithoutSlash { name: name.to_owned(), kind });
     }
-    Err(LookupError::Unknown { name: name.to_owned(), known: known(), searched })
+    let library = library_name(name);
+    Err(LookupError::Unknown { name: name.to_owned(), known: known(), library, nearest: nearest(name) })
 }
 
 /// The file name under which a law is installed as a library.
@@ -140,12 +143,17 @@ fn names(known: &[String]) -> String {
     known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
-fn searched_words(searched: &[PathBuf]) -> String {
-    if searched.is_empty() {
-        return String::new();
+/// A law of this program that differs by a slip of the fingers.
+fn nearest(name: &str) -> Option<&'static str> {
+    let close = |known: &&str| strsim::damerau_levenshtein(name, known) <= 1 + known.len() / 4;
+    embedded::NAMES.iter().copied().find(close)
+}
+
+fn suggestion(nearest: &Option<&str>) -> String {
+    match nearest {
+        Some(name) => format!("; did you mean `{name}`?"),
+        None => "; a path to one needs a `/` or an ending such as .so, .c, .cpp, .f90".to_owned(),
     }
-    let files: Vec<String> = searched.iter().map(|path| path.display().to_string()).collect();
-    format!(" (nor {})", files.join(", "))
 }
 
 #[cfg(test)]
@@ -196,7 +204,9 @@ mod tests {
     #[test]
     fn an_unknown_name_lists_what_there_is() {
         let message = found("archad").unwrap_err().to_string();
-        assert!(message.contains("`archad`") && message.contains("`archard`"), "{message}");
+        assert!(message.contains("`archad`") && message.ends_with("did you mean `archard`?"), "{message}");
+        let message = found("friction").unwrap_err().to_string();
+        assert!(message.contains("libwearlaw_friction.so") && message.contains("needs a `/`"), "{message}");
         let message = found("embedded:mine").unwrap_err().to_string();
         assert!(message.contains("`mine`") && message.contains("`archard`"), "{message}");
         let folder = tempfile::tempdir().unwrap();
