@@ -59,7 +59,7 @@ pub enum Error {
     Plan(#[from] PlanError),
     /// The run ended before its time.
     #[error(transparent)]
-    Solve(#[from] SolveError),
+    Solve(Box<SolveError>),
     /// A prescribed history is wrong.
     #[error(transparent)]
     History(#[from] HistoryError),
@@ -135,6 +135,12 @@ pub enum UsageError {
         /// The path as typed.
         path: PathBuf,
     },
+}
+
+impl From<SolveError> for Error {
+    fn from(error: SolveError) -> Error {
+        Error::Solve(Box::new(error))
+    }
 }
 
 impl Error {
