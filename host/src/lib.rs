@@ -3,9 +3,13 @@
 //! Data flows one way: [`scene`] (what was asked), [`plan`] (what will be done), [`solve`] (the only loop), [`record`]
 //! (what happened), [`output`] (its readers). [`law`] loads and calls wear laws, [`contact`] gives what drives them,
 //! [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`reference`] holds exact answers.
+//! [`cli`] is the program.
 
 pub mod apdl;
+pub mod cli;
 pub mod contact;
+pub mod error;
+pub mod exit_code;
 pub mod integrator;
 pub mod law;
 pub mod output;
@@ -13,3 +17,8 @@ pub mod plan;
 pub mod record;
 pub mod reference;
 pub mod scene;
+pub mod solve;
+pub mod templates;
+
+pub use error::Error;
+pub use exit_code::ExitCode;

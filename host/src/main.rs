@@ -1,10 +1,5 @@
-//! Skeleton.
+//! The program `wearlaw`; all of it is in the library's `cli`.
 
-fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if let Some((command, rest)) = arguments.split_first()
-        && command == wearlaw::law::isolate::WORKER_COMMAND
-    {
-        std::process::exit(wearlaw::law::isolate::worker_main(rest, &|_| None));
-    }
+fn main() -> std::process::ExitCode {
+    wearlaw::cli::main(std::env::args_os()).into()
 }

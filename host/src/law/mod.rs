@@ -10,6 +10,7 @@ mod checks;
 pub mod constants;
 pub mod describe;
 pub mod descriptor;
+pub mod embedded;
 pub mod entry;
 pub mod evaluation;
 pub mod fields;
@@ -20,6 +21,7 @@ pub mod isolate;
 #[cfg(feature = "layout-check")]
 pub mod layout_check;
 pub mod loader;
+pub mod lookup;
 pub mod memory;
 mod number_text;
 mod table;

@@ -4,14 +4,18 @@
 //! and `output` reads them.
 //! Large arrays are borrowed or owned alike, so a field reaches a file without a copy of its own.
 
+mod event;
 mod field;
 mod geometry;
 mod history;
 mod profile;
+mod run;
 mod units;
 
+pub use event::{Event, Nobody, Observer, Wish};
 pub use field::{Field, FieldData, Snapshot};
 pub use geometry::{Geometry, Grid, PointIds, Points};
 pub use history::{History, HistoryRow};
 pub use profile::{Line, Profile};
+pub use run::{Cost, End, MemoryLine, Record};
 pub use units::Units;

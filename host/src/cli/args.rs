@@ -1,0 +1,233 @@
+//! The command line: every argument with its help.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::error::printable;
+use crate::exit_code::ExitCode;
+use crate::law::build::Language;
+
+/// The whole command line.
+#[derive(Debug, Parser)]
+#[command(
+    name = "wearlaw",
+    version,
+    about = "Wear simulation with wear laws that are shared libraries, written in C, C++, Fortran or Rust.",
+    after_help = FIRST_STEPS,
+    after_long_help = LONG_HELP,
+    disable_help_subcommand = true,
+    max_term_width = 100,
+    arg_required_else_help = true
+)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    pub(super) how: How,
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+/// How every command speaks.
+#[derive(Debug, Args)]
+pub(super) struct How {
+    /// Print one JSON document on standard output and nothing else there
+    ///
+    /// An error is a document as well: { "error": { "kind", "message", .. }, "exit_code": n }.
+    #[arg(long, global = true, display_order = 100)]
+    pub(super) json: bool,
+    /// Say less: no progress bar, notes, hints or summary
+    #[arg(short, long, global = true, display_order = 101)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Run a scene
+    Run(RunArguments),
+    /// Show what a scene will compute and what it leaves out; run nothing
+    Plan(PlanArguments),
+    /// Compile sources or a Rust crate into a wear-law library
+    Build(BuildArguments),
+    /// Make a folder with a working wear law of your own to start from
+    New(NewArguments),
+    /// Show what a library is: its file, then the law in it
+    Inspect(InspectArguments),
+    /// Turn the TB,WEAR commands of an input deck into the law section of a scene
+    Apdl(ApdlArguments),
+}
+
+/// What `run` and `plan` share.
+#[derive(Debug, Clone, Args)]
+pub(super) struct SceneArguments {
+    /// Take this law instead of the scene's: a library, a source file, a crate's folder or a name
+    #[arg(long, value_name = "PATH")]
+    pub(super) law: Option<String>,
+    /// Change a key of the scene, such as step.0.load=5; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(super) overrides: Vec<String>,
+    /// Run the law in a process of its own, so that a crash or a hang of it harms nothing else
+    #[arg(long)]
+    pub(super) isolate: bool,
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct RunArguments {
+    /// The scene file (TOML)
+    #[arg(required_unless_present = "references")]
+    pub(super) scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) shared: SceneArguments,
+    /// Folder for the results [default: the scene's name with .out, here]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Number of threads [default: as many as the machine has]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) threads: Option<u16>,
+    /// List the built-in exact answers for [reference] kind, and run nothing
+    #[arg(long, conflicts_with_all = ["scene", "law", "overrides", "isolate", "out", "threads"])]
+    pub(super) references: bool,
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct PlanArguments {
+    /// The scene file (TOML)
+    pub(super) scene: PathBuf,
+    #[command(flatten)]
+    pub(super) shared: SceneArguments,
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct BuildArguments {
+    /// Source files (.c, .cpp, .f90 ..), or one Rust crate: its folder or its Cargo.toml
+    #[arg(required = true, value_name = "SRC")]
+    pub(super) sources: Vec<PathBuf>,
+    /// The library to write [default: lib + the first source's name, here]
+    #[arg(short, long, value_name = "LIB")]
+    pub(super) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct NewArguments {
+    /// Name of the law, and of the folder that is made for it
+    #[arg(value_name = "NAME")]
+    pub(super) folder: PathBuf,
+    /// Language of the law
+    #[arg(long, value_enum)]
+    pub(super) lang: Option<NewLanguage>,
+}
+
+/// The languages that `new` writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum NewLanguage {
+    C,
+    #[value(alias = "c++", alias = "cxx")]
+    Cpp,
+    #[value(alias = "f90")]
+    Fortran,
+    Rust,
+}
+
+impl From<NewLanguage> for Language {
+    fn from(language: NewLanguage) -> Self {
+        match language {
+            NewLanguage::C => Self::C,
+            NewLanguage::Cpp => Self::Cpp,
+            NewLanguage::Fortran => Self::Fortran,
+            NewLanguage::Rust => Self::Rust,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct InspectArguments {
+    /// A library, or the name of a law (archard; embedded:archard for this program's own)
+    #[arg(value_name = "LIB")]
+    pub(super) library: String,
+    /// Stop after the facts of the file; no code of it runs
+    #[arg(long = "static")]
+    pub(super) only_file: bool,
+    /// Describe only the law of this name, where a library holds several
+    #[arg(long, value_name = "NAME")]
+    pub(super) law: Option<String>,
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct ApdlArguments {
+    /// The input deck, or the part of it that defines the material
+    pub(super) file: PathBuf,
+    /// Number of the material [default: the only one with a wear law]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub(super) material: Option<i64>,
+}
+
+const FIRST_STEPS: &str = "\
+First steps:
+  wearlaw new my-law --lang c     a wear law of your own, with the three commands to type next
+  wearlaw inspect archard         what a wear law says of itself
+  wearlaw run SCENE               run a scene; `wearlaw plan SCENE` shows beforehand what it does
+
+`wearlaw COMMAND --help` explains a command, `wearlaw --help` lists the exit codes.";
+
+const LONG_HELP: &str = "\
+First steps:
+  wearlaw new my-law --lang c     a wear law of your own, with the three commands to type next
+  wearlaw inspect archard         what a wear law says of itself
+  wearlaw run SCENE               run a scene; `wearlaw plan SCENE` shows beforehand what it does
+
+Exit codes:
+    0  done
+    1  the thing checked falls short (a check failed, a bar in the scene was missed)
+    2  the input is wrong: arguments, scene, command file, sources, not a law
+    3  the law failed: a bad status, a crash, a hang, a broken contract
+    4  the numbers failed: no convergence, an instability refused
+    5  reading or writing failed
+   70  a fault of wearlaw itself
+  130  interrupted; what was done so far is written
+
+Environment:
+  CC, CXX, FC, CARGO              the compilers of `build`
+  CFLAGS, CXXFLAGS, FFLAGS        further flags for them
+  NO_COLOR                        no colors";
+
+/// Prints what the parser has to say: help and version on standard output, a mistake like any other error.
+pub(super) fn refuse(error: &clap::Error, arguments: &[OsString]) -> ExitCode {
+    let json = arguments.iter().take_while(|word| *word != "--").any(|word| word == "--json");
+    let asked_for = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    if asked_for || !json {
+        // A closed pipe behind the help is nobody's fault.
+        let _ = error.print();
+        return if asked_for { ExitCode::Done } else { ExitCode::InputWrong };
+    }
+    let text = error.render().to_string();
+    let sentence: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    let sentence = sentence.join(" ");
+    let code = ExitCode::InputWrong;
+    let document = serde_json::json!({
+        "error": { "kind": code.word(), "message": printable(sentence.trim_start_matches("error: ")) },
+        "exit_code": code.number(),
+    });
+    super::Console::new(true, false).document(&document).map_or(ExitCode::ReadWriteFailed, |()| code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_parser_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn the_help_lists_every_exit_code() {
+        for code in ExitCode::ALL {
+            let line = format!("{:5}  ", code.number());
+            assert!(LONG_HELP.lines().any(|found| found.starts_with(&line)), "{line}");
+            let word = code.meaning().split(':').next().unwrap();
+            assert!(LONG_HELP.contains(word.trim_end_matches(" of this program")), "{word}");
+        }
+    }
+}

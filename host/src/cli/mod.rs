@@ -1,0 +1,64 @@
+//! The program: its arguments, what it prints, and how it ends; one file per command.
+//!
+//! Results go to standard output, everything else to standard error. With `--json` standard output holds one document
+//! and nothing else: the command's, or `{ "error": { "kind", "message", .. }, "exit_code": n }`. What a command does is
+//! in the modules of the library; nothing there imports from here.
+
+mod apdl;
+mod args;
+mod build;
+mod console;
+mod description;
+mod guard;
+mod inspect;
+mod interrupt;
+mod new;
+mod opening;
+mod plan;
+mod progress;
+mod run;
+mod summary;
+mod table;
+mod unit_text;
+mod writing;
+
+use std::ffi::OsString;
+
+use clap::Parser;
+
+use crate::error::Error;
+use crate::exit_code::ExitCode;
+use crate::law::embedded;
+use crate::law::isolate::{WORKER_COMMAND, worker_main};
+use args::{Arguments, Command};
+use console::Console;
+
+/// Runs the program with these arguments, the first one being its own name.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    if arguments.get(1).is_some_and(|word| word == WORKER_COMMAND) {
+        let words: Vec<String> = arguments[2..].iter().map(|word| word.to_string_lossy().into_owned()).collect();
+        // A worker speaks to its parent alone, by its channel and its exit code.
+        std::process::exit(worker_main(&words, &embedded::entry));
+    }
+    let parsed = match Arguments::try_parse_from(&arguments) {
+        Ok(parsed) => parsed,
+        Err(error) => return args::refuse(&error, &arguments),
+    };
+    let console = Console::new(parsed.how.json, parsed.how.quiet);
+    match guard::guarded(|| dispatch(&console, parsed.command)) {
+        Ok(code) => code,
+        Err(error) => console.error(&error),
+    }
+}
+
+fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
+    match command {
+        Command::Run(arguments) => run::command(console, arguments),
+        Command::Plan(arguments) => plan::command(console, arguments),
+        Command::Build(arguments) => build::command(console, &arguments),
+        Command::New(arguments) => new::command(console, &arguments),
+        Command::Inspect(arguments) => inspect::command(console, &arguments),
+        Command::Apdl(arguments) => apdl::command(console, &arguments),
+    }
+}

@@ -1,0 +1,103 @@
+//! From the name of a law in a scene, or on the command line, to a law that can be called.
+
+use std::path::Path;
+
+use tempfile::TempDir;
+
+use super::build::compiled;
+use super::console::Console;
+use super::inspect::opened_embedded;
+use super::interrupt::Interrupt;
+use crate::error::{Error, UsageError};
+use crate::law::build::BuildRequest;
+use crate::law::file_facts::FileFacts;
+use crate::law::isolate::{IsolateOptions, IsolatedLaw, Source};
+use crate::law::lookup::{self, LawSource};
+use crate::law::{Evaluator, LoadError, LoadOptions, Plugin};
+use crate::scene::{Located, Scene};
+
+/// A law of a scene, ready to be called.
+pub(super) struct OpenedLaw {
+    /// The law, in this process or in a worker of its own.
+    pub(super) evaluator: Box<dyn Evaluator>,
+    /// The path or name that it came from, for reports.
+    pub(super) origin: String,
+    /// The facts of the library's file; `None` for a law of this program.
+    pub(super) facts: Option<FileFacts>,
+    /// Wall time of compiling it, s; `None` where nothing was compiled.
+    pub(super) build_seconds: Option<f64>,
+    /// What was put right while it was loaded.
+    pub(super) warnings: Vec<String>,
+    /// Where it was built; it goes when the law goes.
+    _room: Option<TempDir>,
+}
+
+/// Loads the law of a scene, or the one of `--law`, which is looked for from the current folder.
+pub(super) fn open(
+    console: &Console,
+    interrupt: &Interrupt,
+    scene: &Scene,
+    instead: Option<&str>,
+    isolate: bool,
+) -> Result<OpenedLaw, Error> {
+    let found = match instead {
+        Some(name) => lookup::find(name, Path::new("")).map_err(|error| Located::new(error, None))?,
+        None => {
+            let base = scene.file.parent().unwrap_or(Path::new(""));
+            lookup::find(&scene.law.plugin, base).map_err(|error| scene.error_at("law.use", error))?
+        }
+    };
+    let (mut room, mut build_seconds) = (None, None);
+    let (origin, source) = match found.source {
+        LawSource::Embedded(name) => (format!("embedded:{name}"), Source::Embedded(name.to_owned())),
+        LawSource::Library(path) => (path.display().to_string(), Source::File(path)),
+        LawSource::Source(path) => {
+            let place = temporary()?;
+            let library = place.path().join(library_name(&path));
+            room = Some(place);
+            let origin = path.display().to_string();
+            let request =
+                BuildRequest { sources: vec![path], output: Some(library.clone()), ..BuildRequest::default() };
+            build_seconds = Some(interrupt.over(compiled(console, &request))?.seconds);
+            (origin, Source::File(library))
+        }
+    };
+    let facts = match &source {
+        Source::File(path) => Some(FileFacts::read(path)?),
+        Source::Embedded(_) => None,
+    };
+    let (sha256, options, law) = (scene.law.sha256.clone(), scene.law.options.clone(), found.law);
+    let mut warnings = Vec::new();
+    let evaluator: Box<dyn Evaluator> = if isolate {
+        let wanted = IsolateOptions { sha256, law, options, ..IsolateOptions::new(source) };
+        Box::new(IsolatedLaw::open(&wanted)?)
+    } else {
+        let plugin = match &source {
+            Source::File(path) => Plugin::open(path, &LoadOptions { sha256 })?,
+            Source::Embedded(name) => opened_embedded(name)?,
+        };
+        warnings.extend_from_slice(plugin.warnings());
+        let law = plugin.law(law.as_deref()).map_err(|error| several(error, &origin))?;
+        Box::new(law.create(options.as_deref())?)
+    };
+    Ok(OpenedLaw { evaluator, origin, facts, build_seconds, warnings, _room: room })
+}
+
+/// Says how a scene names one of several laws.
+fn several(error: LoadError, origin: &str) -> Error {
+    match error {
+        LoadError::Ambiguous { known, .. } => UsageError::SeveralLaws { origin: origin.to_owned(), known }.into(),
+        other => other.into(),
+    }
+}
+
+fn temporary() -> Result<TempDir, Error> {
+    let made = tempfile::Builder::new().prefix("wearlaw-law-").tempdir();
+    made.map_err(|source| Error::Temporary { path: std::env::temp_dir(), source })
+}
+
+fn library_name(source: &Path) -> String {
+    let stem = source.file_stem().unwrap_or_default().to_string_lossy();
+    let stem = if stem.is_empty() || stem == "." || stem == ".." { "law".into() } else { stem };
+    format!("{}{stem}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)
+}

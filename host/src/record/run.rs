@@ -1,0 +1,83 @@
+//! A run as a whole: what came out, what it cost and how it ended.
+
+use serde::Serialize;
+
+use super::{Geometry, History, Profile, Units};
+
+/// Work and time of a run. Times are wall seconds; what depends on the machine's load stands here and nowhere else.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Cost {
+    /// Time of the run without building and loading the law; s.
+    pub run_time_s: f64,
+    /// Time inside calls of the law, summed over threads; s.
+    pub law_time_s: f64,
+    /// Time in contact solves; s.
+    pub contact_time_s: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected panels and substeps.
+    pub rejected_steps: u64,
+    /// Calls of the law.
+    pub law_calls: u64,
+    /// Points at which the law was evaluated, summed over calls.
+    pub points_evaluated: u64,
+    /// Contact solves.
+    pub contact_solves: u64,
+    /// Iterations of contact solves.
+    pub contact_iterations: u64,
+    /// Pairs of transforms.
+    pub fft_pairs: u64,
+    /// Most memory that the process has held; bytes. 0 where the system does not tell.
+    pub peak_memory_bytes: u64,
+}
+
+/// How a run ended.
+#[derive(Debug)]
+pub enum End<E> {
+    /// At its end.
+    Done,
+    /// Early, as the scene's `stop` asked.
+    Stopped(String),
+    /// Early, as the observer wished.
+    Interrupted,
+    /// Early, by an error; what was done so far is in the record.
+    Failed(E),
+}
+
+/// Where a run's memory goes, before it is allocated.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct MemoryLine {
+    /// What is held.
+    pub what: String,
+    /// How much; bytes.
+    pub bytes: u64,
+}
+
+/// What happened in a run; numbers in the scene's units.
+#[derive(Debug)]
+pub struct Record<E> {
+    /// Quantities over time; the first row is the start.
+    pub history: History,
+    /// Wear depth [points]; length.
+    pub wear: Vec<f64>,
+    /// State variables [points * variables].
+    pub state: Vec<f64>,
+    /// Estimated relative L2 error of the wear profile by the integrator; `None`: not estimated.
+    pub estimated_error: Option<f64>,
+    /// Largest accepted step; time.
+    pub largest_step: f64,
+    /// What it cost.
+    pub cost: Cost,
+    /// Memory as it was planned.
+    pub memory: Vec<MemoryLine>,
+    /// Things to know, each once.
+    pub warnings: Vec<String>,
+    /// Profile along the points, where they lie on a line.
+    pub profile: Option<Profile<'static>>,
+    /// Where the points lie.
+    pub geometry: Geometry<'static>,
+    /// Labels of the units.
+    pub units: Units,
+    /// How it ended.
+    pub end: End<E>,
+}

@@ -1,0 +1,19 @@
+//! Carrying out a plan: the only loop over time.
+//!
+//! [`Run::prepare`] reads the history and says what memory the run will take; [`Run::go`] advances wear piece by piece,
+//! tells an observer, and returns a record that holds what was done however the run ended. Nothing here prints or
+//! writes a file, and the same plan gives the same numbers to the bit, whatever the number of threads.
+
+mod chunk;
+mod error;
+mod fields;
+mod inputs;
+mod progress;
+mod reference;
+mod run;
+mod schedule;
+mod source;
+
+pub use error::{PointError, SolveError};
+pub use reference::{ErrorNorm, ReferenceError, compare};
+pub use run::Run;
