@@ -3,7 +3,8 @@
 
 use std::path::Path;
 
-use libloading::os::unix::{Library, RTLD_LOCAL, RTLD_NOW, Symbol};
+use libloading::os::unix::{self, RTLD_LOCAL, RTLD_NOW};
+use libloading::{Library, Symbol};
 use wearlaw_plugin_api::abi;
 
 /// A source of laws: something that has the entry function of the ABI and keeps it valid.
@@ -35,10 +36,7 @@ impl Embedded {
     /// # Safety
     /// `entry` keeps the contract of `wearlaw_entry_1`.
     pub unsafe fn new(name: &str, entry: abi::EntryFn) -> Self {
-        Self {
-            name: name.to_owned(),
-            entry,
-        }
+        Self { name: name.to_owned(), entry }
     }
 }
 
@@ -72,28 +70,19 @@ impl LibraryFile {
     /// The file's constructors and its entry function keep the ABI's contract; nothing can check that beforehand.
     pub unsafe fn open(path: &Path) -> Result<Self, libloading::Error> {
         // A bare file name would be searched for in the system's folders.
-        let named = if path.components().count() == 1 {
-            Path::new(".").join(path)
-        } else {
-            path.to_owned()
-        };
+        let named = if path.components().count() == 1 { Path::new(".").join(path) } else { path.to_owned() };
         // SAFETY: the caller answers for what the library's constructors do.
-        let library = unsafe { Library::open(Some(&named), RTLD_NOW | RTLD_LOCAL) }?;
+        let library = unsafe { unix::Library::open(Some(&named), RTLD_NOW | RTLD_LOCAL) }?;
+        let library = Library::from(library);
         // SAFETY: by the ABI, a symbol of this name is a function of this type.
         let entry: Symbol<abi::EntryFn> = unsafe { library.get(abi::ENTRY_SYMBOL) }?;
         let entry = *entry;
-        Ok(Self {
-            name: path.display().to_string(),
-            entry,
-            library,
-        })
+        Ok(Self { name: path.display().to_string(), entry, library })
     }
 
-    /// Address of an exported symbol, valid as long as this value lives; none if there is no such symbol.
-    pub fn address(&self, symbol: &[u8]) -> Option<*const std::ffi::c_void> {
-        // SAFETY: the symbol is taken as an address only; whoever follows it must know what is there.
-        let found: Symbol<*const std::ffi::c_void> = unsafe { self.library.get(symbol) }.ok()?;
-        Some(found.into_raw().cast_const())
+    /// The library, for looking at what else it exports.
+    pub fn library(&self) -> &Library {
+        &self.library
     }
 }
 

@@ -1,3 +1,4 @@
+#![allow(unsafe_code)] // reads the layout that a loaded library exports
 //! The type layouts of laws written in Rust, compared with this host's before the law is called.
 //!
 //! An extra net over the C ABI, behind the feature `layout-check`: a library that exports its layout is held to
@@ -10,6 +11,9 @@ use abi_stable::abi_stability::abi_checking::{
 };
 use abi_stable::library::AbiHeader;
 use abi_stable::type_layout::{TLFieldOrFunction, TLFunction, TypeLayout};
+use libloading::Library;
+use wearlaw_plugin_api::abi::LAYOUT_SYMBOL;
+use wearlaw_plugin_api::layout::{LAYOUT, LayoutExport};
 
 /// Most lines of a report, its head included.
 const MOST_LINES: usize = 5;
@@ -62,6 +66,26 @@ fn lines(differences: &[Difference]) -> String {
         .iter()
         .map(|difference| format!("\n  {difference}"))
         .collect()
+}
+
+/// Compares the layout that a library exports with this host's; a library that exports none is passed.
+///
+/// # Errors
+/// What stands under the layout's name is none, or it is another one than this host's.
+pub fn check_library(library: &Library) -> Result<(), LayoutMismatch> {
+    // SAFETY: whoever exports this name exports a layout behind its header, as `export_laws!` does. The
+    // header is all that is read until it has said that the rest has this host's form.
+    unsafe {
+        let Ok(header) = library.get::<*const AbiHeader>(LAYOUT_SYMBOL) else {
+            return Ok(());
+        };
+        let header: *const AbiHeader = *header;
+        let Some(found) = header.as_ref() else {
+            return Err(LayoutMismatch::NoLayout);
+        };
+        check_header(found)?;
+        check_layout(LAYOUT, (*header.cast::<LayoutExport>()).layout)
+    }
 }
 
 /// Checks the mark and version in front of an exported layout, before the layout itself is looked at.

@@ -89,8 +89,7 @@ pub struct LawTable {
     /// Claim: index (from 0) of the constant that holds that degree. -1 (preset): none.
     pub pressure_degree_constant: i64,
     /// Describes constant, state variable, input or field `index`; NULL if there is nothing to describe.
-    pub describe:
-        Option<unsafe extern "C" fn(kind: i32, index: i64, quantity: *mut Quantity) -> i32>,
+    pub describe: Option<unsafe extern "C" fn(kind: i32, index: i64, quantity: *mut Quantity) -> i32>,
     /// Makes an instance. NULL: no instance is needed. `options` is the scene's text or NULL; a refusal writes its
     /// reason into `text` (at most `text_size` bytes with the closing NUL).
     pub create: Option<
@@ -103,9 +102,7 @@ pub struct LawTable {
         ) -> i32,
     >,
     /// Evaluates the law at the points of `view`. Pure: everything is read from `view` and written to `output`.
-    pub evaluate: Option<
-        unsafe extern "C" fn(instance: *mut c_void, view: *const View, output: *mut Output) -> i32,
-    >,
+    pub evaluate: Option<unsafe extern "C" fn(instance: *mut c_void, view: *const View, output: *mut Output) -> i32>,
     /// Frees an instance. NULL: nothing to free.
     pub destroy: Option<unsafe extern "C" fn(instance: *mut c_void)>,
     /// Finds an extension by its name (`wearlaw.selftest/1`); NULL, or an answer of NULL: not there.

@@ -3,6 +3,8 @@
 //! Here are the worker's side, the parent's side and what passes between them: arrays in shared memory, one byte on a
 //! pipe as the signal. The worker calls the law as the parent would, so the bits are the same. Linux only.
 
+#[cfg(target_os = "linux")]
+mod channel;
 mod error;
 #[cfg(target_os = "linux")]
 mod parent;
@@ -72,14 +74,7 @@ pub struct IsolateOptions {
 impl IsolateOptions {
     /// The law of a source, with nothing else said.
     pub fn new(source: Source) -> Self {
-        Self {
-            source,
-            sha256: None,
-            law: None,
-            options: None,
-            deadline: DEADLINE,
-            program: None,
-        }
+        Self { source, sha256: None, law: None, options: None, deadline: DEADLINE, program: None }
     }
 }
 

@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 use super::super::batch::{Batch, Outputs};
 use super::super::evaluation::{Evaluator, PointInputs};
 use super::super::fields::OutputItem;
-use super::parent::{IsolatedLaw, Trouble};
+use super::channel::Trouble;
+use super::parent::IsolatedLaw;
 
 /// A single point of a law that answers at all takes microseconds; a second is a hang.
 const POINT_DEADLINE: Duration = Duration::from_secs(1);
@@ -26,14 +27,10 @@ impl IsolatedLaw {
             let mut outputs = Outputs {
                 increment: &mut increment,
                 // Everything that the law can write: what the caller had asked for may be what it died of.
-                direction: law
-                    .writes(OutputItem::Direction)
-                    .then_some(&mut direction[..]),
+                direction: law.writes(OutputItem::Direction).then_some(&mut direction[..]),
                 state: (!law.state.is_empty()).then_some(&mut state[..]),
                 status: law.writes(OutputItem::Status).then_some(&mut status[..]),
-                d_pressure: law
-                    .writes(OutputItem::DPressure)
-                    .then_some(&mut d_pressure[..]),
+                d_pressure: law.writes(OutputItem::DPressure).then_some(&mut d_pressure[..]),
             };
             match worker.call(&single, &mut outputs, POINT_DEADLINE.min(self.deadline())) {
                 Ok(_) if Instant::now() < end => {}

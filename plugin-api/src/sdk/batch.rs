@@ -1,0 +1,251 @@
+#![allow(unsafe_code)] // the boundary itself: raw columns become bounded, typed ones here and nowhere else
+//! The inputs of a call, with bounds.
+
+use core::marker::PhantomData;
+use core::mem::size_of;
+
+use crate::abi::{self, View};
+
+/// The inputs of one call.
+pub struct Batch<'a> {
+    view: View,
+    life: PhantomData<&'a f64>,
+}
+
+/// One real input over the points of a batch.
+#[derive(Clone, Copy)]
+pub struct Column<'a> {
+    ptr: *const f64,
+    step: i64,
+    points: usize,
+    life: PhantomData<&'a f64>,
+}
+
+/// One integer input over the points of a batch.
+#[derive(Clone, Copy)]
+pub struct Indices<'a> {
+    ptr: *const i64,
+    step: i64,
+    points: usize,
+    life: PhantomData<&'a i64>,
+}
+
+impl<'a> Column<'a> {
+    /// Value at point `i`, or the first component there.
+    ///
+    /// # Panics
+    /// If `i` is not a point of the batch.
+    #[inline]
+    pub fn get(&self, i: usize) -> f64 {
+        assert!(i < self.points, "point {i} of a batch of {}", self.points);
+        // SAFETY: `i` is a point of the batch, and the host promises a value for each of them.
+        unsafe { *self.ptr.offset(i as isize * self.step as isize) }
+    }
+    /// The three components of a vector at point `i`.
+    ///
+    /// # Panics
+    /// If `i` is not a point of the batch.
+    #[inline]
+    pub fn vector(&self, i: usize) -> [f64; 3] {
+        assert!(i < self.points, "point {i} of a batch of {}", self.points);
+        // SAFETY: `i` is a point of the batch, and the host promises three adjacent components for each of them.
+        unsafe {
+            let at = self.ptr.offset(i as isize * self.step as isize);
+            [*at, *at.add(1), *at.add(2)]
+        }
+    }
+    /// Value `k` of the `count` adjacent values at point `i` (state variables).
+    #[inline]
+    pub(crate) fn adjacent(&self, i: usize, k: usize) -> f64 {
+        assert!(i < self.points, "point {i} of a batch of {}", self.points);
+        // SAFETY: callers keep `k` below the declared number of state variables, which the host promises to give.
+        unsafe { *self.ptr.offset(i as isize * self.step as isize + k as isize) }
+    }
+    /// The one value that all points share, if there is one.
+    #[inline]
+    pub fn uniform(&self) -> Option<f64> {
+        (self.step == 0 && self.points > 0).then(|| self.get(0))
+    }
+    /// All values as a slice, if they lie side by side.
+    #[inline]
+    pub fn slice(&self) -> Option<&'a [f64]> {
+        // SAFETY: with a step of one the host's promise of a value per point is a promise of a contiguous array.
+        (self.step == 1).then(|| unsafe { core::slice::from_raw_parts(self.ptr, self.points) })
+    }
+    /// The array behind the column and the number of doubles from point to point (0: one value for all).
+    #[inline]
+    pub fn strided(&self) -> (&'a [f64], usize) {
+        let step = usize::try_from(self.step).unwrap_or(0);
+        let len = if self.points == 0 { 0 } else { (self.points - 1) * step + 1 };
+        // SAFETY: the last value that the host promises is that of the last point, `(points - 1) * step` doubles in.
+        (unsafe { core::slice::from_raw_parts(self.ptr, len) }, step)
+    }
+    /// Values of the points `start ..` side by side: the host's own array, or a copy in `room`.
+    #[inline]
+    pub fn gather<'b>(&self, start: usize, room: &'b mut [f64]) -> &'b [f64]
+    where
+        'a: 'b,
+    {
+        if let Some(all) = self.slice() {
+            return &all[start..start + room.len()];
+        }
+        for (k, value) in room.iter_mut().enumerate() {
+            *value = self.get(start + k);
+        }
+        room
+    }
+}
+
+impl Indices<'_> {
+    /// Value at point `i`.
+    ///
+    /// # Panics
+    /// If `i` is not a point of the batch.
+    #[inline]
+    pub fn get(&self, i: usize) -> i64 {
+        assert!(i < self.points, "point {i} of a batch of {}", self.points);
+        // SAFETY: `i` is a point of the batch, and the host promises a value for each of them.
+        unsafe { *self.ptr.offset(i as isize * self.step as isize) }
+    }
+}
+
+impl<'a> Batch<'a> {
+    /// Takes over the view of a call.
+    ///
+    /// # Safety
+    /// `view` is NULL or points to at least `struct_size` bytes of a view whose columns stay valid for `'a`.
+    pub(crate) unsafe fn new(view: *const View) -> Option<Batch<'a>> {
+        if view.is_null() {
+            return None;
+        }
+        // SAFETY: the caller promises that `struct_size` bytes are there; all-zero bytes are a valid `View` (absent
+        // columns), and no more than both sides know is copied.
+        let view = unsafe {
+            let mut copy: View = core::mem::zeroed();
+            let given = usize::try_from((*view).struct_size).unwrap_or(0);
+            let size = given.min(size_of::<View>());
+            core::ptr::copy_nonoverlapping(view.cast::<u8>(), (&raw mut copy).cast::<u8>(), size);
+            copy
+        };
+        (view.points >= 0).then_some(Batch { view, life: PhantomData })
+    }
+
+    /// Number of points.
+    #[inline]
+    pub fn points(&self) -> usize {
+        self.view.points as usize
+    }
+    /// The scalars of the call (times, numbers, units); its columns are better read through the methods here.
+    #[inline]
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+    /// Duration of the substep; time.
+    #[inline]
+    pub fn dt(&self) -> f64 {
+        self.view.dt
+    }
+
+    #[inline]
+    fn column(&self, column: abi::Column) -> Option<Column<'a>> {
+        (!column.ptr.is_null()).then_some(Column {
+            ptr: column.ptr,
+            step: column.step,
+            points: self.points(),
+            life: PhantomData,
+        })
+    }
+    #[inline]
+    fn indices(&self, column: abi::IndexColumn) -> Option<Indices<'a>> {
+        (!column.ptr.is_null()).then_some(Indices {
+            ptr: column.ptr,
+            step: column.step,
+            points: self.points(),
+            life: PhantomData,
+        })
+    }
+    /// Constant `index`, in the declared order.
+    #[inline]
+    pub fn constant(&self, index: usize) -> Option<Column<'a>> {
+        self.listed(self.view.constants, self.view.constant_count, index)
+    }
+    /// Further input `index`, in the declared order.
+    #[inline]
+    pub fn input(&self, index: usize) -> Option<Column<'a>> {
+        self.listed(self.view.inputs, self.view.input_count, index)
+    }
+    #[inline]
+    fn listed(&self, list: *const abi::Column, count: i64, index: usize) -> Option<Column<'a>> {
+        if list.is_null() || index as i64 >= count {
+            return None;
+        }
+        // SAFETY: the host promises `count` columns behind a list that is not NULL, and `index` is below it.
+        self.column(unsafe { *list.add(index) })
+    }
+    /// State variables at the start of the substep, those of a point adjacent.
+    #[inline]
+    pub(crate) fn state(&self) -> Option<Column<'a>> {
+        self.column(self.view.state)
+    }
+    /// State variable `k` of point `i` at the start of the substep.
+    ///
+    /// # Panics
+    /// If `i` or `k` is out of range or the call gives no state.
+    pub fn state_at(&self, i: usize, k: usize) -> f64 {
+        assert!((k as i64) < self.view.state_count, "state variable {k} of {}", self.view.state_count);
+        self.state().expect("the host gives the state of a law that declares one").adjacent(i, k)
+    }
+}
+
+macro_rules! columns {
+    ($($name:ident: $bit:ident, $text:literal;)*) => {
+        impl<'a> Batch<'a> {
+            $(#[doc = $text] #[inline] pub fn $name(&self) -> Option<Column<'a>> { self.column(self.view.$name) })*
+
+            /// Field bits of `wanted` that this call does not give.
+            pub fn missing(&self, wanted: i64) -> i64 {
+                let mut there = 0;
+                $(if !self.view.$name.ptr.is_null() { there |= abi::$bit; })*
+                if !self.view.contact_state.ptr.is_null() { there |= abi::WL_FIELD_CONTACT_STATE; }
+                if !self.view.point_id.ptr.is_null() { there |= abi::WL_FIELD_POINT_ID; }
+                if !self.view.element_id.ptr.is_null() { there |= abi::WL_FIELD_ELEMENT_ID; }
+                wanted & !there
+            }
+        }
+    };
+}
+
+columns! {
+    pressure: WL_FIELD_PRESSURE, "Contact pressure; pressure.";
+    slip: WL_FIELD_SLIP, "Slip increment: path length over the substep; length.";
+    velocity: WL_FIELD_VELOCITY, "Sliding velocity; length per time.";
+    slip_vector: WL_FIELD_SLIP_VECTOR, "Net slip displacement, a vector; length.";
+    normal: WL_FIELD_NORMAL, "Outward unit normal of the worn body, a vector.";
+    coordinates: WL_FIELD_COORDINATES, "Position, a vector; length.";
+    tangent: WL_FIELD_TANGENT, "First unit tangent, a vector.";
+    temperature: WL_FIELD_TEMPERATURE, "Temperature of the worn surface.";
+    counter_temperature: WL_FIELD_COUNTER_TEMPERATURE, "Temperature of the counter surface.";
+    friction_stress: WL_FIELD_FRICTION_STRESS, "Friction stress on the worn body, a vector; pressure.";
+    friction_coefficient: WL_FIELD_FRICTION_COEFFICIENT, "Friction coefficient.";
+    friction_work: WL_FIELD_FRICTION_WORK, "Friction work per area over the substep; pressure times length.";
+    accumulated_wear: WL_FIELD_ACCUMULATED_WEAR, "Wear depth at the start of the substep; length.";
+    accumulated_slip: WL_FIELD_ACCUMULATED_SLIP, "Sliding distance at the start of the substep; length.";
+    nodal_traction: WL_FIELD_NODAL_TRACTION, "Normal traction from nodal stresses; pressure.";
+    gap: WL_FIELD_GAP, "Gap between the surfaces; length.";
+    area: WL_FIELD_AREA, "Area that belongs to the point.";
+}
+
+impl<'a> Batch<'a> {
+    /// Contact state: `WL_OPEN`, `WL_STICK` or `WL_SLIDING`.
+    pub fn contact_state(&self) -> Option<Indices<'a>> {
+        self.indices(self.view.contact_state)
+    }
+    /// Number of the point in the host's numbering.
+    pub fn point_id(&self) -> Option<Indices<'a>> {
+        self.indices(self.view.point_id)
+    }
+    /// Number of the contact element.
+    pub fn element_id(&self) -> Option<Indices<'a>> {
+        self.indices(self.view.element_id)
+    }
+}

@@ -1,0 +1,165 @@
+//! What the law is, and what it makes of a batch.
+
+use std::fmt::Arguments;
+
+use wearlaw_plugin_api::sdk::Column;
+use wearlaw_plugin_api::sdk::prelude::*;
+
+use crate::power::{self, Inputs};
+
+/// Points that are computed and then checked while they are in the nearest cache.
+const BLOCK: usize = 1024;
+
+/// The Archard law: wear increment = (K / H) p^m v^n dt, with contact pressure p and sliding velocity v.
+///
+/// Constants K (wear coefficient), H (hardness), m (pressure exponent), n (velocity exponent); Archard, J. F., "Contact
+/// and Rubbing of Flat Surfaces", J. Appl. Phys. 24 (1953) 981-988, has m = n = 1. No wear where p <= 0, whatever m.
+#[derive(Clone, Copy, Debug)]
+pub struct Archard;
+
+impl About for Archard {
+    const NAME: &'static str = "archard";
+    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+    const SUMMARY: &'static str = "Archard wear: increment = (K / H) p^m v^n dt";
+    const SOURCE: &'static str = "J. F. Archard, J. Appl. Phys. 24 (1953) 981-988; exponents m and n generalise it";
+    const READS: i64 = WL_FIELD_PRESSURE | WL_FIELD_VELOCITY;
+    const WRITES: i64 = WL_OUT_D_PRESSURE;
+    const CLAIMS: i64 = WL_CLAIM_DETERMINISTIC
+        | WL_CLAIM_NON_NEGATIVE
+        | WL_CLAIM_LINEAR_IN_DT
+        | WL_CLAIM_ZERO_WITHOUT_PRESSURE
+        | WL_CLAIM_FRAME_INDIFFERENT;
+    const FLAGS: i64 = WL_FLAG_KINKS;
+    const CONSTANTS: &'static [Quantity] = &[
+        Quantity::new("K", Unit::NUMBER)
+            .at_least(0.0)
+            .closes_units()
+            .about("wear coefficient (a number for m = n = 1)"),
+        Quantity::new("H", Unit::PASCAL).above(0.0).about("hardness of the softer body"),
+        Quantity::new("m", Unit::NUMBER).default(1.0).about("pressure exponent"),
+        Quantity::new("n", Unit::NUMBER).default(1.0).about("velocity exponent"),
+    ];
+    const DEGREE: Degree = Degree::Constant(2);
+    const INSTANCE: Option<Self> = Some(Archard);
+}
+
+impl Law for Archard {
+    fn evaluate(&self, batch: &Batch<'_>, answer: &mut Answer<'_>) -> Status {
+        let missing = batch.missing(Self::READS);
+        let constants = [0, 1, 2, 3].map(|k| batch.constant(k));
+        let (Some(pressure), Some(velocity), [Some(k), Some(h), Some(m), Some(n)]) =
+            (batch.pressure(), batch.velocity(), constants)
+        else {
+            answer.miss(missing);
+            return answer.worst();
+        };
+        let dt = batch.dt();
+        if !(dt >= 0.0 && dt.is_finite()) {
+            answer.say(Status::OutOfDomain, format_args!("dt is {dt}, expected a finite number of at least 0"));
+            return answer.worst();
+        }
+        answer.all_good();
+        let columns = Columns { pressure, velocity, k, h, m, n };
+        let uniform = [k, h, m, n].iter().all(|c| c.uniform().is_some());
+        for start in (0..batch.points()).step_by(BLOCK) {
+            let end = batch.points().min(start + BLOCK);
+            let increments = &mut answer.increment[start..end];
+            let slopes = answer.d_pressure.as_deref_mut().map(|d| &mut d[start..end]);
+            let inputs = Inputs {
+                pressure: part(&pressure, start, end),
+                velocity: part(&velocity, start, end),
+                m: part(&m, start, end),
+                n: part(&n, start, end),
+                coefficient: part(&k, start, end),
+                hardness: part(&h, start, end),
+                dt,
+            };
+            power::increments(&inputs, increments, slopes);
+            let wild = odd(increments) || answer.d_pressure.as_deref().is_some_and(|d| odd(&d[start..end]));
+            let known = !wild && columns.inputs_known(start, end) && (!uniform || start > 0 || columns.in_domain(0));
+            if !known || !uniform {
+                columns.judge(start, end, answer);
+            }
+        }
+        answer.worst()
+    }
+}
+
+struct Columns<'a> {
+    pressure: Column<'a>,
+    velocity: Column<'a>,
+    k: Column<'a>,
+    h: Column<'a>,
+    m: Column<'a>,
+    n: Column<'a>,
+}
+
+impl Columns<'_> {
+    /// Whether pressure and velocity are finite at the points `start .. end`.
+    fn inputs_known(&self, start: usize, end: usize) -> bool {
+        [&self.pressure, &self.velocity].into_iter().all(|column| match (column.slice(), column.uniform()) {
+            (Some(values), _) => !odd(&values[start..end]),
+            (None, Some(value)) => value.is_finite(),
+            (None, None) => (start..end).all(|i| column.get(i).is_finite()),
+        })
+    }
+
+    /// Whether the constants at point `i` are ones the law can work with.
+    fn in_domain(&self, i: usize) -> bool {
+        let [k, h, m, n] = self.constants(i);
+        k >= 0.0 && k.is_finite() && h > 0.0 && h.is_finite() && m.is_finite() && n.is_finite()
+    }
+
+    fn constants(&self, i: usize) -> [f64; 4] {
+        [self.k.get(i), self.h.get(i), self.m.get(i), self.n.get(i)]
+    }
+
+    /// Looks at every point of a block in which something is wrong, or may be, and says what.
+    #[cold]
+    fn judge(&self, start: usize, end: usize, answer: &mut Answer<'_>) {
+        for i in start..end {
+            let ([k, h, m, n], p, v) = (self.constants(i), self.pressure.get(i), self.velocity.get(i));
+            let increment = answer.increment[i];
+            if let Some(slope) = answer.d_pressure.as_deref_mut().map(|d| &mut d[i])
+                && slope.is_infinite()
+            {
+                // The wear itself is good; a slope beyond all doubles is as steep as a double can say.
+                *slope = f64::MAX;
+            }
+            let mut refuse = |text: Arguments<'_>| answer.flag(i, Status::OutOfDomain, text);
+            if !p.is_finite() {
+                refuse(format_args!("pressure is {p}, expected a finite number"));
+            } else if !v.is_finite() {
+                refuse(format_args!("velocity is {v}, expected a finite number"));
+            } else if !(k >= 0.0 && k.is_finite()) {
+                refuse(format_args!("K is {k}, expected a finite number of at least 0"));
+            } else if !(h > 0.0 && h.is_finite()) {
+                refuse(format_args!("H is {h}, expected a finite number above 0"));
+            } else if !(m.is_finite() && n.is_finite()) {
+                refuse(format_args!("m is {m} and n is {n}, expected finite numbers"));
+            } else if !increment.is_finite() {
+                if v == 0.0 && n < 0.0 {
+                    refuse(format_args!("n is {n} and the velocity is 0: the wear rate is infinite"));
+                } else if m < 0.0 {
+                    refuse(format_args!("m is {m} and the pressure is {p:e}: the wear increment overflows"));
+                } else {
+                    refuse(format_args!("the wear increment overflows"));
+                }
+            }
+        }
+    }
+}
+
+/// Whether any value is infinite or not a number; a loop that vectorises.
+fn odd(values: &[f64]) -> bool {
+    values.iter().fold(false, |odd, x| odd | (x.abs() > f64::MAX) | x.is_nan())
+}
+
+/// The points `start .. end` of a column, as the kernel takes them.
+fn part<'a>(column: &Column<'a>, start: usize, end: usize) -> power::Column<'a> {
+    let (values, step) = column.strided();
+    power::Column::strided(&values[start * step..(end - 1) * step + 1], step)
+}
+
+#[cfg(test)]
+mod tests;
