@@ -2,14 +2,19 @@
 
 use std::io::ErrorKind;
 
+use crate::apdl::DeckError;
+use crate::contact::prescribed::HistoryError;
 use crate::error::Error;
+use crate::integrator::AdvanceError;
 use crate::law::EvaluateError;
 use crate::law::LoadError;
 use crate::law::build::BuildError;
 use crate::law::file_facts::FileFactsError;
 use crate::law::isolate::IsolateError;
 use crate::output::OutputError;
+use crate::plan::PlanProblem;
 use crate::scene::Problem;
+use crate::solve::{PointError, ReferenceError, SolveError};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -86,10 +91,7 @@ impl ExitCode {
                 Problem::Read { kind, .. } => of_reading(*kind),
                 _ => Self::InputWrong,
             },
-            Error::Deck(error) => match error {
-                crate::apdl::DeckError::Read { cause, .. } => of_reading(cause.kind()),
-                _ => Self::InputWrong,
-            },
+            Error::Deck(error) => of_deck(error),
             Error::Lower { .. } | Error::Usage(_) | Error::Lookup(_) => Self::InputWrong,
             Error::Build(error) => of_build(error),
             Error::File(error) => of_file(error),
@@ -100,14 +102,14 @@ impl ExitCode {
             Error::Isolate(IsolateError::Start { .. }) => Self::ReadWriteFailed,
             Error::Isolate(IsolateError::Load(LoadError::File(error))) => of_file(error),
             Error::Isolate(_) => Self::InputWrong,
-            Error::Evaluate(error) => match error {
-                EvaluateError::OtherLaw { .. }
-                | EvaluateError::OutputLength { .. }
-                | EvaluateError::NotWritten { .. } => Self::ProgramFault,
-                _ => Self::LawFailed,
+            Error::Evaluate(error) => of_evaluation(error),
+            Error::History(error) => of_history(error),
+            Error::Plan(error) => match &*error.problem {
+                PlanProblem::Deck(error) => of_deck(error),
+                PlanProblem::History(error) => of_history(error),
+                _ => Self::InputWrong,
             },
-            Error::History(error) if error.is_io() => Self::ReadWriteFailed,
-            Error::History(_) => Self::InputWrong,
+            Error::Solve(error) => of_solve(error),
             Error::Output(error) => match error {
                 OutputError::NotAResult { .. } | OutputError::NotAFolder { .. } | OutputError::InTheWay { .. } => {
                     Self::InputWrong
@@ -129,6 +131,47 @@ fn of_reading(kind: ErrorKind) -> ExitCode {
     match kind {
         ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => ExitCode::InputWrong,
         _ => ExitCode::ReadWriteFailed,
+    }
+}
+
+fn of_deck(error: &DeckError) -> ExitCode {
+    match error {
+        DeckError::Read { cause, .. } => of_reading(cause.kind()),
+        _ => ExitCode::InputWrong,
+    }
+}
+
+fn of_history(error: &HistoryError) -> ExitCode {
+    if error.is_io() { ExitCode::ReadWriteFailed } else { ExitCode::InputWrong }
+}
+
+fn of_evaluation(error: &EvaluateError) -> ExitCode {
+    match error {
+        EvaluateError::OtherLaw { .. } | EvaluateError::OutputLength { .. } | EvaluateError::NotWritten { .. } => {
+            ExitCode::ProgramFault
+        }
+        _ => ExitCode::LawFailed,
+    }
+}
+
+fn of_solve(error: &SolveError) -> ExitCode {
+    match error {
+        SolveError::History(error) => of_history(error),
+        SolveError::NoDuration { .. } | SolveError::HistoryTooShort { .. } => ExitCode::InputWrong,
+        SolveError::Threads { .. } => ExitCode::ReadWriteFailed,
+        SolveError::Advance { source: AdvanceError::Evaluate(error), .. } => match error {
+            PointError::Law(error) => of_evaluation(error),
+            PointError::Batch(_) => ExitCode::ProgramFault,
+            PointError::Direction { .. } => ExitCode::InputWrong,
+        },
+        // A law that wants ever shorter substeps, and a tolerance out of reach: no step leads on.
+        SolveError::Advance { .. } => ExitCode::NumbersFailed,
+        SolveError::Reference(ReferenceError::Read { source, .. }) => match source.kind() {
+            csv::ErrorKind::Io(error) => of_reading(error.kind()),
+            _ => ExitCode::InputWrong,
+        },
+        SolveError::Reference(ReferenceError::Exact { .. }) => ExitCode::NumbersFailed,
+        SolveError::Reference(_) => ExitCode::InputWrong,
     }
 }
 
