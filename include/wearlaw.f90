@@ -232,31 +232,6 @@ contains
     wl_has = iand(in%given, field) /= 0
   end function wl_has
 
-  ! The m values of a scalar column from point `at` + 1 on, at unit step: the host's own, or laid out in `buffer`.
-  subroutine wl_spread(column, at, m, buffer, values)
-    type(wl_column), intent(in) :: column
-    integer(c_int64_t), intent(in) :: at, m
-    real(c_double), intent(inout), target, contiguous :: buffer(:)
-    real(c_double), intent(out), pointer, contiguous :: values(:)
-    real(c_double), pointer, contiguous :: all(:)
-    integer(c_int64_t) :: i
-    if (.not. c_associated(column%ptr)) then
-      buffer(1:m) = wl_required
-      values => buffer
-    else if (column%step == 0 .and. at > 0) then ! laid out with the first block
-      values => buffer
-    else if (column%step == 1) then
-      call c_f_pointer(column%ptr, all, [at + m])
-      values => all(at + 1:at + m)
-    else
-      call c_f_pointer(column%ptr, all, [(at + m - 1) * column%step + 1])
-      do i = 1, m
-        buffer(i) = all((at + i - 1) * column%step + 1)
-      end do
-      values => buffer
-    end if
-  end subroutine wl_spread
-
   ! Copies a text into a C character array, cut to its length and closed by a NUL.
   pure subroutine wl_text(text, chars)
     character(len=*), intent(in) :: text

@@ -176,7 +176,9 @@ inline void say(char *text, std::size_t size, const char *format, ...) {
     va_end(values);
 }
 
-template <class L> struct In : L::Reads, L::Uses, L::template Inputs<Value> {
+template <class List> struct Read : List {};
+template <class List> struct Used : List {};
+template <class L> struct In : Read<typename L::Reads>, Used<typename L::Uses>, L::template Inputs<Value> {
     double dt, time;
     const wl_view *call; /* everything that is one value for the call: load_step, cycle, material .. */
     int64_t given;       /* bits of the fields in Uses that are there */

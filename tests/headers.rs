@@ -78,6 +78,10 @@ fn assert_compiles(header: &str, before: &str, after: &str, standard: &str) {
 #[test]
 fn every_header_compiles_alone_and_twice() {
     let point = "WL_POINT { out->increment = in->dt; return WL_OK; }\n";
+    let class = "struct A : wearlaw::Law<A> {\n\
+                 static wearlaw::About about() { return {\"a\", \"1\", \"a law\"}; }\n\
+                 int32_t point(const In &in, const C &, const S &, Out &out) const {\n\
+                 out.increment = in.dt; return WL_OK; } };\nWEARLAW_EXPORT(A)\n";
     for standard in ["c99", "c11"] {
         assert_compiles("wearlaw.h", "", "typedef int nothing;\n", standard);
         assert_compiles("wearlaw_point.h", MINIMAL, point, standard);
@@ -86,7 +90,7 @@ fn every_header_compiles_alone_and_twice() {
     for standard in ["c++11", "c++17"] {
         assert_compiles("wearlaw.h", "", "", standard);
         for header in ["wearlaw.hpp", "wearlaw_loop.hpp", "wearlaw_entry.hpp"] {
-            assert_compiles(header, "", "", standard);
+            assert_compiles(header, "", class, standard);
         }
     }
 }

@@ -1,7 +1,9 @@
-//! The point-wise helpers of C, C++ and Fortran: the laws written with them are right, and alike in every language.
+//! The point-wise helpers of C, C++, Fortran and Rust: the laws written with them are right, and alike in every language.
 
 #[path = "support/native.rs"]
 mod native;
+#[path = "support/rust_law.rs"]
+mod rust_law;
 
 use std::path::{Path, PathBuf};
 
@@ -206,7 +208,11 @@ fn archard(law: &Native, pressure: &[f64], velocity: &[f64]) -> Vec<f64> {
     let (increment, slope) = answer.split_at_mut(n);
     let mut o = output(increment);
     o.d_pressure = slope.as_mut_ptr();
-    assert_eq!(law.call(std::ptr::null_mut(), &v, &mut o), WL_OK);
+    let instance = law.law.create.map(|_| law.create(c"").expect("this law has no objections"));
+    assert_eq!(law.call(instance.unwrap_or(std::ptr::null_mut()), &v, &mut o), WL_OK);
+    if let Some(instance) = instance {
+        law.destroy(instance);
+    }
     answer
 }
 
@@ -232,6 +238,11 @@ fn archard_agrees_in_every_language() {
                 )
             })
             .collect();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let library = rust_law::try_build(&rust_source(), folder.path()).unwrap_or_else(|said| panic!("{said}"));
+    let law = Native::open(&library, 0);
+    assert_eq!(native::text(&law.law.version), "1.0.0", "the version of the crate");
+    answers.push(("archard.rs".to_owned(), archard(&law, &pressure, &velocity)));
     let (first, right) = answers.remove(0);
     for (name, found) in answers {
         let worst = found.iter().zip(&right).map(|(a, b)| ulps(*a, *b)).max();
@@ -240,6 +251,11 @@ fn archard_agrees_in_every_language() {
             "{name} and {first} differ by {worst:?} units in the last place"
         );
     }
+}
+
+/// The law in Rust.
+fn rust_source() -> String {
+    std::fs::read_to_string(native::data("archard.rs")).expect("the source is there")
 }
 
 /// Lines that are neither blank nor a comment.
@@ -261,6 +277,7 @@ fn a_law_stays_within_its_lines() {
             "integer(c_int32_t) function point",
             "end function point",
         ),
+        ("archard.rs", "fn point", "}"),
     ];
     for (name, begin, end) in marks {
         let text = std::fs::read_to_string(native::data(name)).expect("the source is there");
@@ -301,5 +318,11 @@ fn a_misspelt_field_does_not_compile() {
                 );
             }
         }
+    }
+    for (right, wrong) in [("at.velocity", "at.velocty"), ("out.increment =", "out.incremnt =")] {
+        let law = rust_source().replace(right, wrong);
+        let refusal = rust_law::try_build(&law, &folder.path().join("crate"));
+        let word = wrong.trim_start_matches("at.").trim_start_matches("out.").trim_end_matches(" =");
+        assert!(refusal.is_err_and(|said| said.contains(word)), "archard.rs compiles with {wrong}");
     }
 }

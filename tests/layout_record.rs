@@ -48,12 +48,8 @@ use wearlaw_plugin_api::sdk::prelude::*;
 struct Small;
 impl About for Small {
     const NAME: &'static str = "small";
-    const VERSION: &'static str = "1.0.0";
-    const SUMMARY: &'static str = "wear by the slip";
     const READS: i64 = WL_FIELD_SLIP;
-    fn create(_options: Option<&str>) -> Result<Self, String> {
-        Ok(Small)
-    }
+    const INSTANCE: Option<Self> = Some(Small);
 }
 impl PointLaw for Small {
     fn point(&self, at: &Point, out: &mut PointAnswer) -> Status {

@@ -60,9 +60,9 @@ pub enum Error {
     /// A scene asks for what it cannot have.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// A run ended before its time.
+    /// A run ended before its time. Boxed: it is the largest by far.
     #[error(transparent)]
-    Solve(#[from] SolveError),
+    Solve(Box<SolveError>),
     /// Results could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -135,6 +135,12 @@ pub enum UsageError {
         /// The path as typed.
         path: PathBuf,
     },
+}
+
+impl From<SolveError> for Error {
+    fn from(error: SolveError) -> Self {
+        Self::Solve(Box::new(error))
+    }
 }
 
 impl Error {

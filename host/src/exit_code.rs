@@ -91,7 +91,10 @@ impl ExitCode {
                 Problem::Read { kind, .. } => of_reading(*kind),
                 _ => Self::InputWrong,
             },
-            Error::Deck(error) => of_deck(error),
+            Error::Deck(error) => match error {
+                DeckError::Read { cause, .. } => of_reading(cause.kind()),
+                _ => Self::InputWrong,
+            },
             Error::Lower { .. } | Error::Usage(_) | Error::Lookup(_) => Self::InputWrong,
             Error::Build(error) => of_build(error),
             Error::File(error) => of_file(error),
@@ -102,14 +105,14 @@ impl ExitCode {
             Error::Isolate(IsolateError::Start { .. }) => Self::ReadWriteFailed,
             Error::Isolate(IsolateError::Load(LoadError::File(error))) => of_file(error),
             Error::Isolate(_) => Self::InputWrong,
-            Error::Evaluate(error) => of_evaluation(error),
-            Error::History(error) => of_history(error),
+            Error::Evaluate(error) => of_evaluating(error),
             Error::Plan(error) => match &*error.problem {
-                PlanProblem::Deck(error) => of_deck(error),
                 PlanProblem::History(error) => of_history(error),
+                PlanProblem::Deck(DeckError::Read { cause, .. }) => of_reading(cause.kind()),
                 _ => Self::InputWrong,
             },
-            Error::Solve(error) => of_solve(error),
+            Error::Solve(error) => of_solving(error),
+            Error::History(error) => of_history(error),
             Error::Output(error) => match error {
                 OutputError::NotAResult { .. } | OutputError::NotAFolder { .. } | OutputError::InTheWay { .. } => {
                     Self::InputWrong
@@ -126,26 +129,11 @@ impl ExitCode {
     }
 }
 
-/// A name that leads nowhere was typed wrongly; anything else is the machine's.
-fn of_reading(kind: ErrorKind) -> ExitCode {
-    match kind {
-        ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => ExitCode::InputWrong,
-        _ => ExitCode::ReadWriteFailed,
-    }
-}
-
-fn of_deck(error: &DeckError) -> ExitCode {
-    match error {
-        DeckError::Read { cause, .. } => of_reading(cause.kind()),
-        _ => ExitCode::InputWrong,
-    }
-}
-
 fn of_history(error: &HistoryError) -> ExitCode {
     if error.is_io() { ExitCode::ReadWriteFailed } else { ExitCode::InputWrong }
 }
 
-fn of_evaluation(error: &EvaluateError) -> ExitCode {
+fn of_evaluating(error: &EvaluateError) -> ExitCode {
     match error {
         EvaluateError::OtherLaw { .. } | EvaluateError::OutputLength { .. } | EvaluateError::NotWritten { .. } => {
             ExitCode::ProgramFault
@@ -154,24 +142,33 @@ fn of_evaluation(error: &EvaluateError) -> ExitCode {
     }
 }
 
-fn of_solve(error: &SolveError) -> ExitCode {
+fn of_solving(error: &SolveError) -> ExitCode {
     match error {
         SolveError::History(error) => of_history(error),
         SolveError::NoDuration { .. } | SolveError::HistoryTooShort { .. } => ExitCode::InputWrong,
-        SolveError::Threads { .. } => ExitCode::ReadWriteFailed,
-        SolveError::Advance { source: AdvanceError::Evaluate(error), .. } => match error {
-            PointError::Law(error) => of_evaluation(error),
-            PointError::Batch(_) => ExitCode::ProgramFault,
-            PointError::Direction { .. } => ExitCode::InputWrong,
+        SolveError::Advance { source, .. } => match source {
+            AdvanceError::Evaluate(PointError::Law(error)) => of_evaluating(error),
+            AdvanceError::Evaluate(PointError::Batch(_)) => ExitCode::ProgramFault,
+            AdvanceError::Evaluate(PointError::Direction { by_law: false, .. }) => ExitCode::InputWrong,
+            AdvanceError::Evaluate(PointError::Direction { .. }) | AdvanceError::SmallestStep { .. } => {
+                ExitCode::LawFailed
+            }
+            AdvanceError::Tolerance { .. } => ExitCode::NumbersFailed,
         },
-        // A law that wants ever shorter substeps, and a tolerance out of reach: no step leads on.
-        SolveError::Advance { .. } => ExitCode::NumbersFailed,
+        SolveError::Threads { .. } => ExitCode::ReadWriteFailed,
         SolveError::Reference(ReferenceError::Read { source, .. }) => match source.kind() {
-            csv::ErrorKind::Io(error) => of_reading(error.kind()),
+            csv::ErrorKind::Io(cause) => of_reading(cause.kind()),
             _ => ExitCode::InputWrong,
         },
-        SolveError::Reference(ReferenceError::Exact { .. }) => ExitCode::NumbersFailed,
         SolveError::Reference(_) => ExitCode::InputWrong,
+    }
+}
+
+/// A name that leads nowhere was typed wrongly; anything else is the machine's.
+fn of_reading(kind: ErrorKind) -> ExitCode {
+    match kind {
+        ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => ExitCode::InputWrong,
+        _ => ExitCode::ReadWriteFailed,
     }
 }
 

@@ -17,9 +17,7 @@
 //!     const READS: i64 = WL_FIELD_PRESSURE | WL_FIELD_SLIP;
 //!     const CLAIMS: i64 = WL_CLAIM_LINEAR_IN_DT | WL_CLAIM_ZERO_WITHOUT_SLIP;
 //!     const CONSTANTS: &'static [Quantity] = &[Quantity::new("k", Unit::PER_PASCAL).at_least(0.0)];
-//!     fn create(_options: Option<&str>) -> Result<Self, String> {
-//!         Ok(Proportional)
-//!     }
+//!     const INSTANCE: Option<Self> = Some(Proportional);
 //! }
 //!
 //! impl PointLaw for Proportional {

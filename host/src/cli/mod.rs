@@ -20,6 +20,7 @@ mod run;
 mod summary;
 mod table;
 mod unit_text;
+mod writing;
 
 use std::ffi::OsString;
 

@@ -5,54 +5,56 @@ use serde_json::json;
 use super::args::PlanArguments;
 use super::console::Console;
 use super::interrupt::Interrupt;
-use super::opening::OpenedLaw;
 use super::run::prepared;
-use super::table::{aligned, item};
+use super::table::{aligned, labelled};
 use super::unit_text::bytes;
 use crate::error::Error;
 use crate::exit_code::ExitCode;
 use crate::plan::Plan;
-use crate::record::MemoryLine;
 use crate::solve::Run;
 
-/// Width of the text.
-const WIDTH: usize = 96;
+const WIDTH: usize = 100;
 
 pub(super) fn command(console: &Console, arguments: PlanArguments) -> Result<ExitCode, Error> {
     let interrupt = Interrupt::watch();
     let (scene, law) = prepared(console, &interrupt, &arguments.scene, &arguments.shared)?;
     let plan = Plan::new(&scene, law.evaluator.descriptor())?;
     let run = Run::prepare(&plan, law.evaluator.as_ref())?;
-    let (points, memory) = (run.points(), run.memory());
+    let (memory, pieces) = (run.memory(), run.pieces_planned()?);
     let total: u64 = memory.iter().map(|line| line.bytes).sum();
+    let least = run.least_evaluations()?;
     if console.json {
         console.document(&json!({
-            "law": { "name": law.evaluator.descriptor().name, "path": law.origin },
             "computed": plan.computed,
             "skipped": plan.skipped,
-            "points": points,
+            "points": run.points(),
+            "pieces_of_loading": pieces,
+            "evaluations_at_least": least,
             "memory": memory,
             "memory_bytes": total,
         }))?;
-    } else {
-        let title = plan.title.clone().unwrap_or_else(|| arguments.scene.display().to_string());
-        console.result(&text(console, &title, &plan, &law, points, &memory))?;
+        return Ok(ExitCode::Done);
     }
-    Ok(ExitCode::Done)
-}
-
-fn text(console: &Console, title: &str, plan: &Plan, law: &OpenedLaw, points: usize, memory: &[MemoryLine]) -> String {
-    let mut text = format!("{}\n\n{}\n", console.headline(title), console.headline("Computed"));
-    let count = if points == 1 { "1 point".to_owned() } else { format!("{points} points") };
-    text.push_str(&item(&format!("{count}, law from {}", law.origin), WIDTH));
-    plan.computed.iter().for_each(|line| text.push_str(&item(line, WIDTH)));
-    text.push_str(&format!("\n{}\n", console.headline("Left out")));
-    if plan.skipped.is_empty() {
-        text.push_str(&item("nothing", WIDTH));
+    let mut text = format!("{}\n", console.headline("computed"));
+    for line in &plan.computed {
+        text.push_str(&labelled("-", line, 2, WIDTH));
     }
-    plan.skipped.iter().for_each(|skipped| text.push_str(&item(&format!("{}: {}", skipped.what, skipped.why), WIDTH)));
-    text.push_str(&format!("\n{}\n", console.headline("Memory")));
+    text.push_str(&format!("\n{}\n", console.headline("left out")));
+    let widest = plan.skipped.iter().map(|skipped| skipped.what.chars().count()).max().unwrap_or(0).min(40);
+    for skipped in &plan.skipped {
+        text.push_str(&labelled(&skipped.what, &skipped.why, widest + 2, WIDTH));
+    }
+    text.push_str(&format!("\n{}\n", console.headline("memory for the points")));
     let mut rows: Vec<Vec<String>> = memory.iter().map(|line| vec![line.what.clone(), bytes(line.bytes)]).collect();
-    rows.push(vec!["together".to_owned(), bytes(memory.iter().map(|line| line.bytes).sum())]);
-    text + &aligned(&rows, 2)
+    rows.push(vec!["together".to_owned(), bytes(total)]);
+    text.push_str(&aligned(&rows, 2));
+    text.push_str(&format!("\n{}\n", console.headline("cost")));
+    let cost = [
+        vec!["points".to_owned(), run.points().to_string()],
+        vec!["pieces of loading".to_owned(), pieces.to_string()],
+        vec!["evaluations of the law, at least".to_owned(), least.to_string()],
+    ];
+    text.push_str(&aligned(&cost, 2));
+    console.result(&text)?;
+    Ok(ExitCode::Done)
 }

@@ -1,19 +1,28 @@
 //! `wearlaw run SCENE`: the settings of a run, and the run itself.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::args::{RunArguments, SceneArguments};
 use super::console::Console;
 use super::interrupt::Interrupt;
 use super::opening::{self, OpenedLaw};
+use super::progress::Progress;
+use super::summary::Summary;
 use super::table::labelled;
+use super::writing::Listener;
 use crate::error::Error;
 use crate::exit_code::ExitCode;
-use crate::output::check_folder;
+use crate::output::{
+    FieldFormat, FieldSeries, Figure, LawReport, Report, StabilityReport, WholeFolder, check_folder, write_history,
+    write_plot,
+};
+use crate::plan::Plan;
+use crate::record::{End, HistoryRow, Record};
 use crate::reference::NamedReference;
-use crate::scene::{Override, Scene};
+use crate::scene::{Format, Override, Scene};
+use crate::solve::{ErrorNorm, Run, SolveError};
 
 /// What a run is told.
 #[derive(Debug, Clone)]
@@ -46,9 +55,167 @@ pub(super) fn command(console: &Console, arguments: RunArguments) -> Result<Exit
 /// Runs the scene: reads it, opens its law, plans, solves, writes the results and sums them up.
 fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     let interrupt = Interrupt::watch();
-    let (_scene, _law) = prepared(console, &interrupt, &settings.scene, &settings.shared)?;
+    let (scene, law) = prepared(console, &interrupt, &settings.scene, &settings.shared)?;
+    let plan = Plan::new(&scene, law.evaluator.descriptor())?;
     check_folder(&settings.out)?;
-    Err(Error::Fault { what: "`run` is not connected to the solver".to_owned() })
+    let run = Run::prepare(&plan, law.evaluator.as_ref())?;
+    let folder = WholeFolder::begin(&settings.out)?;
+    let wanted = !plan.output.fields.is_empty() && !plan.output.formats.is_empty();
+    let formats: Vec<FieldFormat> = plan.output.formats.iter().map(|format| field_format(*format)).collect();
+    let fields = wanted.then(|| FieldSeries::begin(&folder.path().join("fields"), &formats)).transpose()?;
+    let mut listener = Listener {
+        console,
+        interrupt: &interrupt,
+        progress: Progress::start(console),
+        fields,
+        geometry: run.geometry(),
+        trouble: None,
+    };
+    let record = run.go(settings.threads.unwrap_or(0), &mut listener);
+    let Listener { fields, trouble, progress, .. } = listener;
+    drop(progress);
+    if let Some(error) = trouble {
+        return Err(error.into());
+    }
+    fields.map(FieldSeries::finish).transpose()?;
+    let finished = matches!(record.end, End::Done | End::Stopped(_));
+    let error = if finished { run.error(&record)? } else { None };
+    let report = report(&scene, &plan, &law, settings, &record, error.as_ref())?;
+    write_history(&record.history, &folder.path().join("history.csv"))?;
+    let title = scene.title.clone().unwrap_or_else(|| settings.scene.display().to_string());
+    let figure =
+        Figure { title: &title, units: &record.units, history: &record.history, profile: record.profile.as_ref() };
+    write_plot(&figure, &folder.path().join("plot.svg"))?;
+    report.write(&folder.path().join("report.json"))?;
+    folder.commit()?;
+    let missed = error.as_ref().zip(plan.bar).filter(|(error, bar)| error.value.is_nan() || error.value > *bar);
+    let (code, failure) = match record.end {
+        End::Failed(error) => {
+            let error = Error::from(error);
+            (error.exit_code(), Some(error))
+        }
+        End::Interrupted => (ExitCode::Interrupted, None),
+        End::Done | End::Stopped(_) if missed.is_some() => (ExitCode::FallsShort, None),
+        End::Done | End::Stopped(_) => (ExitCode::Done, None),
+    };
+    if console.json && failure.is_none() {
+        console.document(&report.document())?;
+    } else if !console.json && !console.quiet {
+        let summary = summary(title, &plan, &report, error.as_ref(), record.estimated_error, &settings.out);
+        console.result(&summary.text(console))?;
+    }
+    if let Some((error, bar)) = missed {
+        console.note(&format!("the error {:e} is above the bar of the scene, {bar:e} (`reference.bar`)", error.value));
+    }
+    match failure {
+        Some(error) => {
+            console.note(&format!("results up to time {} are in {}", report.last.time, settings.out.display()));
+            Err(error)
+        }
+        None => Ok(code),
+    }
+}
+
+fn field_format(format: Format) -> FieldFormat {
+    match format {
+        Format::Csv => FieldFormat::Csv,
+        Format::Npz => FieldFormat::Npz,
+        Format::Vtk => FieldFormat::Vtk,
+    }
+}
+
+fn report(
+    scene: &Scene,
+    plan: &Plan,
+    law: &OpenedLaw,
+    settings: &Settings,
+    record: &Record<SolveError>,
+    error: Option<&ErrorNorm>,
+) -> Result<Report, Error> {
+    let descriptor = law.evaluator.descriptor();
+    let json = |what: &str, value: Result<Value, serde_json::Error>| {
+        value.map_err(|error| Error::Fault { what: format!("{what} as JSON: {error}") })
+    };
+    let error = match (error, record.estimated_error) {
+        (Some(error), estimate) => {
+            let mut value = json("the error", serde_json::to_value(error))?;
+            value["estimate"] = estimate.into();
+            value
+        }
+        (None, Some(estimate)) => serde_json::json!({
+            "reference": "none; the integrator's own estimate",
+            "norm": "relative L2 error of the wear depth",
+            "value": estimate,
+            "by_field": {},
+        }),
+        (None, None) => Value::Null,
+    };
+    Ok(Report {
+        scene: json("the scene", serde_json::to_value(scene))?,
+        law: LawReport {
+            name: descriptor.name.clone(),
+            version: descriptor.version.clone(),
+            path: law.origin.clone(),
+            sha256: law.facts.as_ref().map(|facts| facts.sha256.clone()),
+            isolated: settings.shared.isolate,
+            build_time_s: law.build_seconds,
+        },
+        computed: plan.computed.clone(),
+        skipped: json("the plan", serde_json::to_value(&plan.skipped))?,
+        memory: record.memory.clone(),
+        last: record.history.last().copied().unwrap_or_else(|| HistoryRow::at(0.0)),
+        share: plan.share,
+        error,
+        cost: record.cost,
+        stability: StabilityReport {
+            stiffness_per_s: None,
+            explicit_limit_s: None,
+            largest_step_s: record.largest_step,
+            verdict: "a prescribed pressure has no stability limit".to_owned(),
+        },
+        warnings: law.warnings.iter().chain(&record.warnings).cloned().collect(),
+        ended: match &record.end {
+            End::Done => "done".to_owned(),
+            End::Stopped(reason) => reason.clone(),
+            End::Interrupted => "interrupted".to_owned(),
+            End::Failed(error) => error.to_string(),
+        },
+    })
+}
+
+fn summary(
+    title: String,
+    plan: &Plan,
+    report: &Report,
+    error: Option<&ErrorNorm>,
+    estimate: Option<f64>,
+    out: &Path,
+) -> Summary {
+    let shown = match (error, estimate) {
+        (Some(error), _) => Some((format!("against {}", error.reference), error.norm.clone(), error.value)),
+        (None, Some(estimate)) => {
+            Some(("estimated".to_owned(), "relative L2 error of the wear depth".to_owned(), estimate))
+        }
+        (None, None) => None,
+    };
+    Summary {
+        title,
+        law: format!("{} {} ({})", report.law.name, report.law.version, report.law.path),
+        time: report.last.time,
+        sliding_distance: report.last.sliding_distance,
+        max_wear_depth: report.last.max_wear_depth,
+        wear_volume: report.last.wear_volume,
+        error: shown,
+        run_time_s: report.cost.run_time_s,
+        build_time_s: report.law.build_time_s,
+        steps: report.cost.steps,
+        points_evaluated: report.cost.points_evaluated,
+        out: out.to_owned(),
+        length: plan.units.length.label.to_owned(),
+        time_unit: plan.units.time.label.to_owned(),
+        stopped: (report.ended != "done").then(|| report.ended.clone()),
+        share: plan.share,
+    }
 }
 
 /// The scene with its overrides, and its law.

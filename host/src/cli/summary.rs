@@ -21,7 +21,7 @@ pub(super) struct Summary {
     pub(super) max_wear_depth: f64,
     /// Worn volume.
     pub(super) wear_volume: Option<f64>,
-    /// Against what the result was held, in which norm, and how far off it is.
+    /// How the error is known, in which norm, and how large it is.
     pub(super) error: Option<(String, String, f64)>,
     /// Wall time of the run without compiling the law, s.
     pub(super) run_time_s: f64,
@@ -37,6 +37,8 @@ pub(super) struct Summary {
     pub(super) length: String,
     /// Label of time.
     pub(super) time_unit: String,
+    /// Shares of the wear of the wearing body and the counterbody.
+    pub(super) share: Option<[f64; 2]>,
     /// Why the run ended before its time.
     pub(super) stopped: Option<String>,
 }
@@ -54,6 +56,10 @@ impl Summary {
         line("law", &self.law);
         let at = format!("at time {} {time}, slid {} {length}", figures(self.time), figures(self.sliding_distance));
         line("wear depth", &format!("{} {length} {at}", significant(self.max_wear_depth, 11)));
+        if let Some([own, other]) = self.share {
+            let depth = |part: f64| significant(part * self.max_wear_depth, 6);
+            line("of it", &format!("{} {length} wearing body, {} {length} counterbody", depth(own), depth(other)));
+        }
         if let Some(volume) = self.wear_volume {
             line("wear volume", &format!("{} {length}^3", significant(volume, 11)));
         }
@@ -65,7 +71,7 @@ impl Summary {
             format!("{}{built} ({} steps, {} points)", elapsed(self.run_time_s), self.steps, self.points_evaluated);
         match &self.error {
             Some((reference, norm, value)) => {
-                line("error, run time", &format!("{} ({norm}, against {reference}) in {run}", significant(*value, 3)));
+                line("error, run time", &format!("{} ({norm}, {reference}) in {run}", significant(*value, 3)));
             }
             None => line("run time", &run),
         }
@@ -99,7 +105,7 @@ mod tests {
             time: 1.0,
             sliding_distance: 0.25,
             max_wear_depth: 7.322_799_325_1e-6,
-            error: Some(("archard-prescribed".to_owned(), "relative".to_owned(), 2.1e-13)),
+            error: Some(("against archard-prescribed".to_owned(), "relative".to_owned(), 2.1e-13)),
             run_time_s: 0.0032,
             out: "pin.out".into(),
             length: "m".to_owned(),

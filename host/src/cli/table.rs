@@ -41,11 +41,6 @@ pub(super) fn labelled(label: &str, text: &str, label_width: usize, width: usize
     lines
 }
 
-/// An entry of a list, broken at blanks, behind a dash.
-pub(super) fn item(text: &str, width: usize) -> String {
-    labelled("-", text, 2, width)
-}
-
 fn length(text: &str) -> usize {
     text.chars().count()
 }
@@ -66,6 +61,5 @@ mod tests {
     fn long_texts_go_on_below_their_beginning() {
         assert_eq!(labelled("reads", "one two three", 7, 17), "  reads  one two\n         three\n");
         assert_eq!(labelled("reads", "", 7, 17), "  reads\n");
-        assert_eq!(item("one two", 8), "  - one\n    two\n");
     }
 }

@@ -63,6 +63,17 @@ pub struct Room {
 }
 
 impl Quadrature {
+    /// Evaluations of a piece that meets its tolerance at once.
+    pub fn least_evaluations(self) -> u64 {
+        let nodes = match self {
+            Quadrature::Exact => Rule::MIDPOINT.nodes.len(),
+            Quadrature::Adaptive(_) | Quadrature::Fixed => Rule::KRONROD_7.nodes.len(),
+            Quadrature::FixedRule(rule) => rule.nodes.len(),
+            Quadrature::AdaptiveRule(rule, _) => 3 * rule.nodes.len(),
+        };
+        nodes as u64
+    }
+
     /// Adds the wear of one piece to `wear` [points] and says what it took.
     ///
     /// # Errors

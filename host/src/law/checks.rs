@@ -1,4 +1,5 @@
 //! Checks on what a law answered, written so that the compiler vectorises them; they run while a piece is in cache.
+#![allow(unsafe_code)] // reason: calls a function that is compiled for a processor's feature.
 
 /// What a sweep over numbers found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,34 +10,62 @@ pub(super) struct Sweep {
     pub(super) non_negative: bool,
 }
 
-const LANES: usize = 8;
-
-/// Sweeps over numbers: x - x is 0 for a finite number and NaN for any other, and NaN stays in a sum.
+/// Sweeps over numbers; fast where all are positive or zero, as wear increments are.
 #[inline]
-#[allow(clippy::eq_op)] // reason: x - x is the test itself
 pub(super) fn sweep(values: &[f64]) -> Sweep {
-    let (chunks, rest) = values.as_chunks::<LANES>();
-    let mut waste = [0.0_f64; LANES];
-    let mut least = [0.0_f64; LANES];
-    for chunk in chunks {
-        for lane in 0..LANES {
-            let value = chunk[lane];
-            waste[lane] += value - value;
-            least[lane] = if value < least[lane] {
-                value
-            } else {
-                least[lane]
-            };
+    if plain(values) {
+        Sweep {
+            finite: true,
+            non_negative: true,
         }
+    } else {
+        exact(values)
     }
-    for &value in rest {
-        waste[0] += value - value;
-        least[0] = if value < least[0] { value } else { least[0] };
+}
+
+fn exact(values: &[f64]) -> Sweep {
+    values.iter().fold(
+        Sweep {
+            finite: true,
+            non_negative: true,
+        },
+        |found, value| Sweep {
+            finite: found.finite & value.is_finite(),
+            non_negative: found.non_negative & !(*value < 0.0),
+        },
+    )
+}
+
+/// One in the exponent of a double: it carries the exponent of an infinity or a NaN over into the sign.
+const EXPONENT_ONE: u64 = 1 << 52;
+/// Fewer numbers than this are swept sooner than the processor is asked what it can.
+const FEW: usize = 32;
+
+/// True if all are finite and have the sign of a positive number; false says nothing.
+#[inline]
+fn plain(values: &[f64]) -> bool {
+    #[cfg(target_arch = "x86_64")]
+    if values.len() >= FEW && std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: the processor has just been asked for the feature.
+        return unsafe { plain_avx2(values) };
     }
-    Sweep {
-        finite: waste.iter().sum::<f64>() == 0.0,
-        non_negative: least.iter().all(|least| *least >= 0.0),
-    }
+    plain_lanes(values)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn plain_avx2(values: &[f64]) -> bool {
+    plain_lanes(values)
+}
+
+/// A plain fold: whole numbers may be gathered in any order, so the compiler spreads it over lanes itself.
+#[inline(always)]
+fn plain_lanes(values: &[f64]) -> bool {
+    let all = values.iter().fold(0, |all, value| {
+        let bits = value.to_bits();
+        all | bits | bits.wrapping_add(EXPONENT_ONE)
+    });
+    all >> 63 == 0
 }
 
 /// True if no number is NaN; infinities pass (the derivative of p^m at p = 0 for m < 1 is one).

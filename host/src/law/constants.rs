@@ -18,7 +18,7 @@ pub enum GivenConstants<'a> {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ConstantsError {
     /// No constant of that name.
-    #[error("law `{law}` has no constant `{name}`{}; it has {}", nearest.as_ref().map(|near| format!(", did you mean `{near}`?")).unwrap_or_default(), list(known))]
+    #[error("law `{law}` has no constant `{name}`{}; it has {}", nearest.as_ref().map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default(), list(known))]
     Unknown {
         /// The law.
         law: String,
@@ -227,4 +227,127 @@ fn keeps_bounds(constant: &Quantity, value: f64, factor: f64) -> bool {
         ..constant.clone()
     };
     signs.allows(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_laws::{constant, plain};
+    use super::*;
+
+    const MILLIMETRES: UnitSizes = UnitSizes {
+        metre: 1e-3,
+        kilogram: 1e3,
+        second: 1.0,
+        kelvin: 1.0,
+    };
+
+    fn law() -> LawDescriptor {
+        let positive = |name: &str| Quantity {
+            minimum: 0.0,
+            above_minimum: true,
+            ..constant(name)
+        };
+        LawDescriptor {
+            constants: vec![
+                Quantity {
+                    minimum: 0.0,
+                    maximum: 1.0,
+                    closes_units: true,
+                    exponents: [1.0, 0.0, 0.0, 0.0],
+                    ..constant("K")
+                },
+                Quantity {
+                    maximum: 1e11,
+                    exponents: [-1.0, 1.0, -2.0, 0.0],
+                    ..positive("hardness")
+                },
+                Quantity {
+                    default: Some(2.0),
+                    ..positive("m")
+                },
+                Quantity {
+                    default: Some(5e6),
+                    exponents: [-1.0, 1.0, -2.0, 0.0],
+                    ..positive("threshold")
+                },
+            ],
+            ..plain("archard")
+        }
+    }
+
+    fn named(pairs: &[(&str, f64)], units: UnitSizes) -> Result<Vec<f64>, String> {
+        let pairs: Vec<(String, f64)> = pairs
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), *value))
+            .collect();
+        law()
+            .resolve_constants(GivenConstants::ByName(&pairs), units)
+            .map_err(|error| error.to_string())
+    }
+
+    fn placed(values: &[Option<f64>]) -> Result<Vec<f64>, String> {
+        law()
+            .resolve_constants(GivenConstants::ByPosition(values), UnitSizes::SI)
+            .map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn names_positions_and_defaults_give_the_same_constants() {
+        let all = vec![1e-4, 1e9, 2.0, 5e6];
+        assert_eq!(
+            named(&[("hardness", 1e9), ("K", 1e-4)], UnitSizes::SI),
+            Ok(all.clone())
+        );
+        assert_eq!(placed(&[Some(1e-4), Some(1e9)]), Ok(all.clone()));
+        assert_eq!(placed(&[Some(1e-4), Some(1e9), None, Some(5e6)]), Ok(all));
+    }
+
+    #[test]
+    fn defaults_and_bounds_follow_the_units() {
+        // Tonne, millimetre, second: pressures are in MPa.
+        let resolved =
+            named(&[("hardness", 1e3), ("K", 500.0)], MILLIMETRES).expect("within the bounds");
+        assert_eq!(resolved[..3], [500.0, 1e3, 2.0]);
+        assert!((resolved[3] - 5.0).abs() < 1e-12, "{resolved:?}");
+        let said = named(&[("hardness", 2e5), ("K", 1.0)], MILLIMETRES).expect_err("2e11 Pa");
+        assert!(
+            said.starts_with("constant `hardness` of law `archard` is 200000 (2"),
+            "{said}"
+        );
+        assert!(
+            said.ends_with("in SI units), expected an SI value in (0, 100000000000]"),
+            "{said}"
+        );
+        let said = named(&[("hardness", 1e3), ("K", -1.0)], MILLIMETRES)
+            .expect_err("the sign is checked in any units");
+        assert!(said.contains("`K`") && said.contains("is -1"), "{said}");
+    }
+
+    #[test]
+    fn every_mistake_names_the_constant() {
+        let said = |result: Result<Vec<f64>, String>| result.expect_err("a mistake");
+        assert_eq!(
+            said(named(&[("k", 1.0)], UnitSizes::SI)),
+            "law `archard` has no constant `k` (did you mean `K`?); it has `K`, `hardness`, `m`, `threshold`"
+        );
+        assert_eq!(
+            said(named(&[("m", 1.0), ("m", 2.0)], UnitSizes::SI)),
+            "constant `m` of law `archard` is given twice"
+        );
+        assert_eq!(
+            said(placed(&[Some(1e-4)])),
+            "constant `hardness` (number 2) of law `archard` is not given and has no default: a number of the tests"
+        );
+        assert_eq!(
+            said(placed(&[Some(1.0); 5])),
+            "5 constants are given, law `archard` has 4: `K`, `hardness`, `m`, `threshold`"
+        );
+        assert_eq!(
+            said(placed(&[Some(1e-4), Some(0.0)])),
+            "constant `hardness` of law `archard` is 0, expected a value in (0, 100000000000]"
+        );
+        for wrong in [f64::NAN, f64::INFINITY] {
+            assert!(said(placed(&[Some(1e-4), Some(1.0), Some(wrong)])).contains("`m`"));
+        }
+    }
 }

@@ -9,11 +9,13 @@ mod fields;
 mod little_endian;
 pub mod npz;
 pub mod plot;
+mod report;
 pub mod vtk;
 pub mod whole;
 
 pub use csv::write_history;
 pub use error::OutputError;
 pub use fields::{FieldFormat, FieldSeries, write_fields};
+pub use report::{LawReport, Report, StabilityReport};
 pub use plot::{Figure, write_plot};
 pub use whole::{WholeFolder, check_folder, write_file, write_file_synced};

@@ -7,7 +7,7 @@ use crate::law::{Fields, LawDescriptor, UnitSizes};
 use crate::plan::needs::Setting;
 use crate::plan::output::{self, OutputPlan, ReferencePlan};
 use crate::plan::{Advance, Block, Material, PlanError, PlanProblem, advance, loading};
-use crate::scene::{Accuracy, Model, Scene, ScalingKind, Stop, Units};
+use crate::scene::{Accuracy, Model, ScalingKind, Scene, Stop, Units};
 
 /// Something that is left out, and why.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -90,12 +90,8 @@ impl Plan {
             return Err(scene.error_at("contact.model", PlanProblem::ModelNotBuilt { model }));
         };
         let sizes = scene.units.sizes();
-        let sizes = UnitSizes {
-            metre: sizes.metre,
-            kilogram: sizes.kilogram,
-            second: sizes.second,
-            kelvin: sizes.kelvin,
-        };
+        let sizes =
+            UnitSizes { metre: sizes.metre, kilogram: sizes.kilogram, second: sizes.second, kelvin: sizes.kelvin };
         let material = Material::resolve(scene, law, sizes)?;
         refuse_unbuilt(scene, &material)?;
         let history = prescribed.history.as_ref().map(|path| scene.resolve(path));

@@ -39,7 +39,9 @@ pub enum PlanProblem {
     #[error(transparent)]
     History(#[from] HistoryError),
     /// The deck's material is for another law.
-    #[error("the deck's material {material} is for the Archard law, but `law.use` names law `{law}`; expected `archard`")]
+    #[error(
+        "the deck's material {material} is for the Archard law, but `law.use` names law `{law}`; expected `archard`"
+    )]
     OtherLaw {
         /// Number of the material.
         material: i64,
@@ -59,7 +61,9 @@ pub enum PlanProblem {
         place: &'static str,
     },
     /// The rows of a table set C5 to C8 to different things.
-    #[error("row {row} of the table sets C5 to C8 to something else than the rows before, expected the same in every row")]
+    #[error(
+        "row {row} of the table sets C5 to C8 to something else than the rows before, expected the same in every row"
+    )]
     ControlsDiffer {
         /// Row, from 1.
         row: usize,
@@ -75,7 +79,9 @@ pub enum PlanProblem {
         remedy: String,
     },
     /// The wear direction is set twice.
-    #[error("found a wear direction in the scene, but law `{law}` sets the direction itself; expected only one of them")]
+    #[error(
+        "found a wear direction in the scene, but law `{law}` sets the direction itself; expected only one of them"
+    )]
     DirectionTwice {
         /// The law.
         law: String,
@@ -107,7 +113,9 @@ pub enum PlanProblem {
         reason: &'static str,
     },
     /// Automatic scaling makes no sense where pressure is given.
-    #[error("found automatic scaling (AUTS) with a prescribed pressure, which wear does not change: there is nothing to scale by, and quadrature in time is exact already; expected kind = \"none\"")]
+    #[error(
+        "found automatic scaling (AUTS) with a prescribed pressure, which wear does not change: there is nothing to scale by, and quadrature in time is exact already; expected kind = \"none\""
+    )]
     ScalingOfPrescribed,
     /// A second-order method for a law with a memory.
     #[error(
@@ -132,10 +140,14 @@ pub enum PlanProblem {
         nearest: Option<String>,
     },
     /// Loading that does not go together.
-    #[error("found load steps beside cycles over a history, expected one or the other: a history is gone through from its start in every cycle")]
+    #[error(
+        "found load steps beside cycles over a history, expected one or the other: a history is gone through from its start in every cycle"
+    )]
     StepsAndCycles,
     /// A history has one instant and nothing says how long it lasts.
-    #[error("`{history}` has a single time and no load step gives a duration, expected `step.duration` or a second time")]
+    #[error(
+        "`{history}` has a single time and no load step gives a duration, expected `step.duration` or a second time"
+    )]
     NoDuration {
         /// The history.
         history: String,
@@ -151,6 +163,8 @@ pub enum PlanProblem {
         covered: f64,
     },
     /// A velocity for each point from a file.
-    #[error("found a file of velocities in a prescribed scene, expected a number or the column `velocity` of `contact.history`")]
+    #[error(
+        "found a file of velocities in a prescribed scene, expected a number or the column `velocity` of `contact.history`"
+    )]
     VelocityFile,
 }

@@ -158,12 +158,7 @@ fn positioned(
     Ok((values.map_err(|problem| scene.error_at(key, problem.into()))?, settings))
 }
 
-fn from_deck(
-    scene: &Scene,
-    law: &LawDescriptor,
-    units: UnitSizes,
-    path: &std::path::Path,
-) -> Result<Given, PlanError> {
+fn from_deck(scene: &Scene, law: &LawDescriptor, units: UnitSizes, path: &std::path::Path) -> Result<Given, PlanError> {
     let at = |problem: PlanProblem| scene.error_at("law.apdl", problem);
     let deck = Deck::read(&scene.resolve(path)).map_err(|problem| at(problem.into()))?;
     let chosen = scene.law.material.map(|number| i64::try_from(number).unwrap_or(i64::MAX));
@@ -172,7 +167,8 @@ fn from_deck(
         return Err(at(PlanProblem::OtherLaw { material: material.id, law: law.name.clone() }));
     }
     let place = "the deck of `law.apdl`";
-    let mut given = Given { rows: Vec::new(), controls: Controls::default(), scaling: None, number: material.id, place };
+    let mut given =
+        Given { rows: Vec::new(), controls: Controls::default(), scaling: None, number: material.id, place };
     for (index, row) in material.tables.iter().enumerate() {
         let (values, controls) = positioned(scene, law, units, "law.apdl", &row.constants)?;
         if index > 0 && !controls.same_meaning(&given.controls) {

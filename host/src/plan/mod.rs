@@ -12,7 +12,6 @@ mod material;
 mod needs;
 mod output;
 
-
 pub use advance::{Advance, Sample};
 pub use build::{Plan, Skipped};
 pub use constants::{ConstantTable, Row};

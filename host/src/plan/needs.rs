@@ -86,8 +86,12 @@ impl Setting<'_> {
             }
             Field::Area => (self.has(Column::Area), "give a column `area` in `contact.history`"),
             Field::Coordinates => (self.has(Column::X), "give columns `x`, `y`, `z` in `contact.history`"),
-            Field::CounterTemperature => (false, "no key of a prescribed scene gives the counter surface a temperature"),
-            Field::Gap => (false, "a prescribed scene has no gap; `contact.model` = \"foundation\" or \"halfspace\" has"),
+            Field::CounterTemperature => {
+                (false, "no key of a prescribed scene gives the counter surface a temperature")
+            }
+            Field::Gap => {
+                (false, "a prescribed scene has no gap; `contact.model` = \"foundation\" or \"halfspace\" has")
+            }
             Field::ElementId => (false, "a prescribed scene has points but no elements"),
             Field::Pressure
             | Field::Normal
@@ -216,8 +220,9 @@ impl Setting<'_> {
             skipped.push(Skipped::new("the column `pressure`", "wear is based on nodal stresses"));
         }
         let turned = self.material.direction.is_some() || self.law.writes(OutputItem::Direction);
-        let normals =
-            driven || turned || [Field::Normal, Field::Tangent, Field::NodalTraction].iter().any(|f| fields.contains(*f));
+        let normals = driven
+            || turned
+            || [Field::Normal, Field::Tangent, Field::NodalTraction].iter().any(|f| fields.contains(*f));
         let oblique = [Field::SlipVector, Field::FrictionStress].iter().any(|field| fields.contains(*field));
         if normals || oblique {
             if self.has(Column::NormalX) {
@@ -268,7 +273,9 @@ impl Setting<'_> {
             skipped.push(Skipped::new("points out of contact", "the law does not ask for them: no call, no wear"));
         }
         let table = &self.scene.law.table;
-        if !table.is_empty() && !self.material.constants.varies_in_time() && !self.material.constants.varies_in_temperature()
+        if !table.is_empty()
+            && !self.material.constants.varies_in_time()
+            && !self.material.constants.varies_in_temperature()
         {
             skipped.push(Skipped::new("the table of constants", "its rows are equal"));
         }

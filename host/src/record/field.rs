@@ -20,29 +20,13 @@ pub struct Field<'a> {
 
 impl<'a> Field<'a> {
     /// A field of one number per point.
-    pub fn scalar(
-        name: impl Into<String>,
-        data: impl Into<FieldData<'a>>,
-        unit: impl Into<String>,
-    ) -> Self {
-        Self {
-            name: name.into(),
-            components: 1,
-            data: data.into(),
-            unit: unit.into(),
-        }
+    pub fn scalar(name: impl Into<String>, data: impl Into<FieldData<'a>>, unit: impl Into<String>) -> Self {
+        Self { name: name.into(), components: 1, data: data.into(), unit: unit.into() }
     }
 
     /// A field of three numbers per point, `[point][3]`.
-    pub fn vector(
-        name: impl Into<String>,
-        data: impl Into<FieldData<'a>>,
-        unit: impl Into<String>,
-    ) -> Self {
-        Self {
-            components: 3,
-            ..Self::scalar(name, data, unit)
-        }
+    pub fn vector(name: impl Into<String>, data: impl Into<FieldData<'a>>, unit: impl Into<String>) -> Self {
+        Self { components: 3, ..Self::scalar(name, data, unit) }
     }
 
     /// Names of the components where a file has a column for each: `wear`; `slip_x`, `slip_y`,
@@ -52,10 +36,7 @@ impl<'a> Field<'a> {
         let axes = ["x", "y", "z"];
         match self.components {
             1 => vec![self.name.clone()],
-            n @ 2..=3 => axes[..n]
-                .iter()
-                .map(|axis| format!("{}_{axis}", self.name))
-                .collect(),
+            n @ 2..=3 => axes[..n].iter().map(|axis| format!("{}_{axis}", self.name)).collect(),
             n => (0..n).map(|i| format!("{}_{i}", self.name)).collect(),
         }
     }

@@ -129,11 +129,7 @@ mod tests {
 
     #[test]
     fn cells_count_along_x_first() {
-        let grid = Grid {
-            cells: [4, 2],
-            size: [8.0, 2.0],
-            origin: [-4.0, 0.0],
-        };
+        let grid = Grid { cells: [4, 2], size: [8.0, 2.0], origin: [-4.0, 0.0] };
         let geometry = Geometry::Grid(grid);
         assert_eq!(geometry.count(), 8);
         assert_eq!(geometry.coordinates(1), Some([-1.0, 0.5, 0.0]));
@@ -142,11 +138,7 @@ mod tests {
 
     #[test]
     fn points_have_coordinates_only_where_given() {
-        let mut points = Points {
-            ids: PointIds::Counted { first: 1, count: 2 },
-            coordinates: None,
-            dimension: 3,
-        };
+        let mut points = Points { ids: PointIds::Counted { first: 1, count: 2 }, coordinates: None, dimension: 3 };
         let bare = Geometry::Points(points.clone());
         assert_eq!((bare.id(1), bare.coordinates(1)), (2, None));
         points.coordinates = Some(vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0].into());

@@ -64,13 +64,10 @@ impl History {
     /// Mean sliding velocity over each step that has a length: (start, end, velocity) in time.
     pub fn sliding_velocity(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let before = std::iter::once(0.0).chain(self.rows.iter().map(|row| row.sliding_distance));
-        before
-            .zip(&self.rows)
-            .filter(|(_, row)| row.dt > 0.0)
-            .map(|(distance, row)| {
-                let velocity = (row.sliding_distance - distance) / row.dt;
-                (row.time - row.dt, row.time, velocity)
-            })
+        before.zip(&self.rows).filter(|(_, row)| row.dt > 0.0).map(|(distance, row)| {
+            let velocity = (row.sliding_distance - distance) / row.dt;
+            (row.time - row.dt, row.time, velocity)
+        })
     }
 }
 

@@ -18,12 +18,7 @@ pub struct Units {
 impl Default for Units {
     /// SI in three dimensions.
     fn default() -> Self {
-        Self {
-            length: "m".into(),
-            force: "N".into(),
-            time: "s".into(),
-            per_length: false,
-        }
+        Self { length: "m".into(), force: "N".into(), time: "s".into(), per_length: false }
     }
 }
 
@@ -49,21 +44,13 @@ impl Units {
     /// Label of loads, per length in 2-D.
     #[must_use]
     pub fn load(&self) -> String {
-        if self.per_length {
-            format!("{}/{}", self.force, self.length)
-        } else {
-            self.force.clone()
-        }
+        if self.per_length { format!("{}/{}", self.force, self.length) } else { self.force.clone() }
     }
 
     /// Label of contact areas, a length in 2-D.
     #[must_use]
     pub fn area(&self) -> String {
-        if self.per_length {
-            self.length.clone()
-        } else {
-            format!("{}²", self.length)
-        }
+        if self.per_length { self.length.clone() } else { format!("{}²", self.length) }
     }
 
     /// Label of worn volumes, an area in 2-D.
@@ -83,25 +70,11 @@ mod tests {
         let si = Units::default();
         assert_eq!(si.pressure(), "Pa");
         assert_eq!(si.velocity(), "m/s");
-        assert_eq!(
-            (si.load(), si.area(), si.volume()),
-            ("N".into(), "m²".into(), "m³".into())
-        );
-        let plane = Units {
-            length: "mm".into(),
-            per_length: true,
-            ..Units::default()
-        };
+        assert_eq!((si.load(), si.area(), si.volume()), ("N".into(), "m²".into(), "m³".into()));
+        let plane = Units { length: "mm".into(), per_length: true, ..Units::default() };
         assert_eq!(plane.pressure(), "MPa");
-        assert_eq!(
-            (plane.load(), plane.area(), plane.volume()),
-            ("N/mm".into(), "mm".into(), "mm²".into())
-        );
-        let odd = Units {
-            force: "lbf".into(),
-            length: "in".into(),
-            ..Units::default()
-        };
+        assert_eq!((plane.load(), plane.area(), plane.volume()), ("N/mm".into(), "mm".into(), "mm²".into()));
+        let odd = Units { force: "lbf".into(), length: "in".into(), ..Units::default() };
         assert_eq!(odd.pressure(), "lbf/in²");
     }
 }

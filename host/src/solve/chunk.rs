@@ -226,7 +226,7 @@ fn turn(
         let along = -(0..3).map(|k| d[k] * n[k]).sum::<f64>();
         if along <= 0.0 {
             let point = usize::try_from(site.id(first + i)).unwrap_or(first + i);
-            return Err(PointError::Direction { point, along });
+            return Err(PointError::Direction { point, along, by_law: directions.is_some() });
         }
         *increment *= along;
     }
@@ -315,9 +315,7 @@ pub(super) fn advance(
         warnings: Vec::new(),
     };
     let tally = match site.plan.advance {
-        Advance::Rate(planned) => {
-            rule.unwrap_or(planned).integrate(&mut caller, span, quadrature, slices.wear)?
-        }
+        Advance::Rate(planned) => rule.unwrap_or(planned).integrate(&mut caller, span, quadrature, slices.wear)?,
         Advance::Substeps(..) => {
             memory.wear.clear();
             memory.wear.extend_from_slice(slices.wear);

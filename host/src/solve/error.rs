@@ -72,5 +72,7 @@ pub enum PointError {
         point: usize,
         /// -d.n there.
         along: f64,
+        /// Whether the law gave the direction, and not the scene.
+        by_law: bool,
     },
 }

@@ -189,10 +189,7 @@ impl<'h> Drive<'h> {
         room.extend((0..points).map(|i| {
             let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k| value(&s[k], i));
             let [nx, ny, nz] = normal_at(&n, i);
-            let along = nx * nx * xx
-                + ny * ny * yy
-                + nz * nz * zz
-                + 2.0 * (nx * ny * xy + ny * nz * yz + nx * nz * xz);
+            let along = nx * nx * xx + ny * ny * yy + nz * nz * zz + 2.0 * (nx * ny * xy + ny * nz * yz + nx * nz * xz);
             (-along).max(0.0)
         }));
         Values::PerPoint(room)
@@ -281,16 +278,22 @@ impl<'h> Drive<'h> {
         let pressure = self.driving_pressure(plan, part, range.clone(), (&mut rooms.pressure, &mut rooms.parts));
         let normals = self.normals(part, range.clone(), &mut rooms.normal, &mut rooms.parts);
         if wants(Field::NodalTraction) {
-            builder = builder.field(
-                Field::NodalTraction,
-                self.traction(part, range.clone(), &mut rooms.traction, &mut rooms.parts),
-            );
+            builder = builder
+                .field(Field::NodalTraction, self.traction(part, range.clone(), &mut rooms.traction, &mut rooms.parts));
         }
-        let temperature =
-            if plan.temperature { self.temperature.at(part, range.clone(), &mut rooms.temperature) } else { Values::Absent };
-        let constants =
-            plan.material.constants.at(start + (part - moment.from) * length, &temperature, points, &mut rooms.constants);
-        builder = builder.constant_values(&constants).field(Field::Pressure, pressure).field(Field::Temperature, temperature);
+        let temperature = if plan.temperature {
+            self.temperature.at(part, range.clone(), &mut rooms.temperature)
+        } else {
+            Values::Absent
+        };
+        let constants = plan.material.constants.at(
+            start + (part - moment.from) * length,
+            &temperature,
+            points,
+            &mut rooms.constants,
+        );
+        builder =
+            builder.constant_values(&constants).field(Field::Pressure, pressure).field(Field::Temperature, temperature);
         if wants(Field::Normal) {
             builder = builder.field(Field::Normal, normals);
         }
@@ -308,11 +311,14 @@ impl<'h> Drive<'h> {
             Motion::None => [Values::Uniform(0.0); 3],
             Motion::Velocity => [self.velocity.at(part, range.clone(), u), Values::Uniform(0.0), Values::Uniform(0.0)],
             Motion::Slip => [self.slip[0].at(range.clone(), u), Values::Uniform(0.0), Values::Uniform(0.0)],
-            Motion::SlipVector => {
-                [self.slip[0].at(range.clone(), u), self.slip[1].at(range.clone(), v), self.slip[2].at(range.clone(), w)]
-            }
+            Motion::SlipVector => [
+                self.slip[0].at(range.clone(), u),
+                self.slip[1].at(range.clone(), v),
+                self.slip[2].at(range.clone(), w),
+            ],
         };
-        let moves = any(&[Field::Velocity, Field::Slip, Field::FrictionWork, Field::FrictionStress, Field::ContactState]);
+        let moves =
+            any(&[Field::Velocity, Field::Slip, Field::FrictionWork, Field::FrictionStress, Field::ContactState]);
         let speed = match self.motion {
             _ if !moves => Values::Absent,
             Motion::SlipVector => speed_of(&velocity, points, &mut rooms.speed),
@@ -493,8 +499,7 @@ mod tests {
     fn tangents_are_unit_and_in_the_surface() {
         for n in [UP, [0.6, 0.0, 0.8], [1.0, 0.0, 0.0]] {
             let t = tangent(n);
-            let (length, dot): (f64, f64) =
-                (t.iter().map(|x| x * x).sum(), (0..3).map(|k| t[k] * n[k]).sum());
+            let (length, dot): (f64, f64) = (t.iter().map(|x| x * x).sum(), (0..3).map(|k| t[k] * n[k]).sum());
             assert!((length - 1.0).abs() < 1e-15 && dot.abs() < 1e-15, "{n:?} {t:?}");
         }
     }

@@ -58,8 +58,12 @@ impl Arrays {
     fn chunks(&mut self) -> Vec<(usize, Slices<'_>)> {
         let wear = if self.averaged.is_empty() { &mut self.wear } else { &mut self.averaged };
         let points = wear.len();
-        let mut rest =
-            (wear.as_mut_slice(), self.state.as_mut_slice(), self.distance.as_mut_slice(), self.direction.as_mut_slice());
+        let mut rest = (
+            wear.as_mut_slice(),
+            self.state.as_mut_slice(),
+            self.distance.as_mut_slice(),
+            self.direction.as_mut_slice(),
+        );
         let mut hints = self.hints.as_mut_slice();
         let mut chunks = Vec::with_capacity(points.div_ceil(CHUNK));
         let mut start = 0;
@@ -82,10 +86,7 @@ impl Arrays {
     }
 
     /// Runs `work` on every chunk, on as many threads as there are; the results come in the order of the points.
-    fn each<T: Send>(
-        &mut self,
-        work: impl Fn(usize, &mut Slices<'_>, &mut Scratch) -> T + Sync,
-    ) -> Vec<T> {
+    fn each<T: Send>(&mut self, work: impl Fn(usize, &mut Slices<'_>, &mut Scratch) -> T + Sync) -> Vec<T> {
         let mut chunks = self.chunks();
         if let [(start, slices)] = chunks.as_mut_slice() {
             return vec![work(*start, slices, &mut Scratch::default())];
@@ -125,8 +126,12 @@ impl Arrays {
             let path = drive.paths((0.0, 1.0), length, 0..1, &mut room, &mut parts);
             self.uniform_distance += crate::solve::source::value(&path, 0);
         }
-        let mut whole =
-            PieceDone { tally: Tally::default(), law_time: Duration::ZERO, warnings: Vec::new(), sums: Sums::default() };
+        let mut whole = PieceDone {
+            tally: Tally::default(),
+            law_time: Duration::ZERO,
+            warnings: Vec::new(),
+            sums: Sums::default(),
+        };
         for result in results {
             let done = result?;
             whole.tally.beside(&done.tally);

@@ -93,8 +93,7 @@ pub fn compare(wear: &[f64], exact: &[f64], reference: &str) -> ErrorNorm {
     };
     let value = relative(norm(differences.clone()), norm(exact.iter().copied()));
     let most = differences.fold(0.0, |most: f64, d| most.max(d.abs()));
-    let by_field =
-        [("wear_l2_relative".to_owned(), value), ("wear_max_relative".to_owned(), relative(most, largest))];
+    let by_field = [("wear_l2_relative".to_owned(), value), ("wear_max_relative".to_owned(), relative(most, largest))];
     ErrorNorm {
         reference: reference.to_owned(),
         norm: "relative L2 error of the wear depth".to_owned(),
@@ -160,11 +159,8 @@ pub(super) fn archard_prescribed(
 /// Wear depths from a CSV file with the columns `point` and `wear`.
 pub(super) fn from_file(path: &Path, ids: impl Iterator<Item = i64>) -> Result<Vec<f64>, ReferenceError> {
     let read = |source: csv::Error| ReferenceError::Read { path: path.to_owned(), source };
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_path(path)
-        .map_err(read)?;
+    let mut reader =
+        csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_path(path).map_err(read)?;
     let names = reader.headers().map_err(read)?.clone();
     let place = |wanted: &str| names.iter().position(|name| name == wanted);
     let (Some(point), Some(wear)) = (place("point"), place("wear")) else {

@@ -71,11 +71,15 @@ impl<'p> Run<'p> {
         self.points
     }
 
+    /// Where the points lie.
+    pub fn geometry(&self) -> record::Geometry<'static> {
+        fields::geometry(self.plan, self.history.as_ref(), self.points)
+    }
+
     /// The memory that the run takes for its points, a line for each array.
     pub fn memory(&self) -> Vec<MemoryLine> {
         let line = |what: &str, bytes: usize| MemoryLine { what: what.to_owned(), bytes: bytes as u64 };
-        let mut lines: Vec<MemoryLine> =
-            self.history.iter().map(|history| line("history", history.bytes())).collect();
+        let mut lines: Vec<MemoryLine> = self.history.iter().map(|history| line("history", history.bytes())).collect();
         let states = self.plan.initial_state.len();
         let arrays =
             Arrays::bytes(self.points, states, self.distances, self.keeps_directions(), self.plan.material.average);
@@ -84,6 +88,35 @@ impl<'p> Run<'p> {
             lines.push(line("pressure field to write", 8 * self.points));
         }
         lines
+    }
+
+    /// Number of pieces of loading that the run goes through.
+    ///
+    /// # Errors
+    /// A history that does not cover the loading.
+    pub fn pieces_planned(&self) -> Result<u64, SolveError> {
+        let placed = schedule::placed(self.plan, self.history.as_ref())?;
+        Ok(placed.map(|placed| self.pieces(placed).len() as u64).sum())
+    }
+
+    /// Points times the fewest evaluations of the law at each of them; what misses its tolerance takes more.
+    ///
+    /// # Errors
+    /// A history that does not cover the loading.
+    pub fn least_evaluations(&self) -> Result<u64, SolveError> {
+        let mut evaluations = 0;
+        for placed in schedule::placed(self.plan, self.history.as_ref())? {
+            for piece in self.pieces(placed) {
+                let drive = Drive::new(self.plan, self.history.as_ref(), &piece);
+                let site = self.site(&piece);
+                evaluations += match (crate::solve::chunk::rule(&site, &drive, self.points), self.plan.advance) {
+                    (Some(rule), _) => rule.least_evaluations(),
+                    (None, Advance::Substeps(Control::Tolerance(_), _)) => 3,
+                    (None, _) => 1,
+                };
+            }
+        }
+        Ok(evaluations * self.points as u64)
     }
 
     fn keeps_directions(&self) -> bool {
@@ -135,8 +168,9 @@ impl<'p> Run<'p> {
         let size = norm(going.arrays.wear.iter().copied());
         let estimated = matches!(
             self.plan.advance,
-            Advance::Rate(Quadrature::Adaptive(_) | Quadrature::AdaptiveRule(..) | Quadrature::Fixed | Quadrature::Exact)
-                | Advance::Substeps(Control::Tolerance(_), _)
+            Advance::Rate(
+                Quadrature::Adaptive(_) | Quadrature::AdaptiveRule(..) | Quadrature::Fixed | Quadrature::Exact
+            ) | Advance::Substeps(Control::Tolerance(_), _)
         );
         Record {
             estimated_error: (estimated && size > 0.0).then(|| going.tally.error / size),
@@ -304,9 +338,9 @@ impl<'p> Run<'p> {
 
     fn stop(&self, row: &HistoryRow) -> Option<String> {
         let reached = |name: &str, value: f64, limit: Option<f64>| {
-            limit.filter(|limit| value >= *limit).map(|limit| {
-                format!("{name} reached {value:e}, `stop.{name}` is {limit:e}, at time {}", row.time)
-            })
+            limit
+                .filter(|limit| value >= *limit)
+                .map(|limit| format!("{name} reached {value:e}, `stop.{name}` is {limit:e}, at time {}", row.time))
         };
         reached("wear_depth", row.max_wear_depth, self.plan.stop.wear_depth)
             .or_else(|| reached("wear_volume", row.wear_volume.unwrap_or(0.0), self.plan.stop.wear_volume))
@@ -347,7 +381,9 @@ impl<'p> Run<'p> {
         plan.output.fields.clear();
         plan.substeps = plan.substeps.map(|substeps| substeps.saturating_mul(16));
         plan.advance = match plan.advance {
-            Advance::Rate(Quadrature::Adaptive(tolerance)) => Advance::Rate(Quadrature::Adaptive(tolerance * REFINEMENT)),
+            Advance::Rate(Quadrature::Adaptive(tolerance)) => {
+                Advance::Rate(Quadrature::Adaptive(tolerance * REFINEMENT))
+            }
             Advance::Rate(Quadrature::AdaptiveRule(rule, tolerance)) => {
                 Advance::Rate(Quadrature::AdaptiveRule(rule, tolerance * REFINEMENT))
             }

@@ -156,7 +156,13 @@ fn between(times: &[f64], offset: f64, start: f64, end: f64) -> Option<Between> 
     let part = |at: f64| {
         let part = if time > 0.0 { (at - offset - from) / time } else { 0.0 };
         // A cut at a row is that row, whatever the offset rounds to.
-        if part.abs() < 1e-12 { 0.0 } else if (part - 1.0).abs() < 1e-12 { 1.0 } else { part.clamp(0.0, 1.0) }
+        if part.abs() < 1e-12 {
+            0.0
+        } else if (part - 1.0).abs() < 1e-12 {
+            1.0
+        } else {
+            part.clamp(0.0, 1.0)
+        }
     };
     Some(Between { k, k1: k + 1, a: part(start), b: part(end), time })
 }

@@ -143,10 +143,10 @@ pub enum Degree {
 pub trait About: Sized + Send + Sync + 'static {
     /// Name: letters, digits, `-` and `_`.
     const NAME: &'static str;
-    /// Version of the law.
-    const VERSION: &'static str;
-    /// One line on what it does.
-    const SUMMARY: &'static str;
+    /// Version of the law; empty: that of the crate that exports it.
+    const VERSION: &'static str = "";
+    /// One line on what it does; empty: the description of the crate that exports it.
+    const SUMMARY: &'static str = "";
     /// Where the equation comes from.
     const SOURCE: &'static str = "";
     /// `WL_FIELD_` bits that it must have.
@@ -168,11 +168,20 @@ pub trait About: Sized + Send + Sync + 'static {
     /// Homogeneity in the pressure.
     const DEGREE: Degree = Degree::Unclaimed;
 
+    /// The instance of a law that takes no options; a law that takes some writes its own `create` instead.
+    const INSTANCE: Option<Self> = None;
+
     /// Makes an instance; `options` is the scene's `[law] options`.
     ///
     /// # Errors
     /// A sentence that says what is wrong with the options.
-    fn create(options: Option<&str>) -> Result<Self, String>;
+    fn create(options: Option<&str>) -> Result<Self, String> {
+        let name = Self::NAME;
+        match options {
+            None | Some("") => Self::INSTANCE.ok_or_else(|| format!("{name} was written without INSTANCE or create")),
+            Some(options) => Err(format!("found options \"{options}\", expected none: {name} has no options")),
+        }
+    }
 }
 
 /// A law that takes a batch at a time.

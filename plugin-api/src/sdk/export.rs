@@ -17,6 +17,15 @@ use super::{Answer, Batch, Degree, Law, Quantity, Status};
 /// The table of one law, as its entry gives it.
 pub type Fill = fn(&mut LawTable);
 
+/// The crate that exports laws, as its manifest has it: what a law says nothing of is taken from here.
+#[derive(Clone, Copy, Debug)]
+pub struct Exporter {
+    /// Version of the crate.
+    pub version: &'static str,
+    /// Description of the crate.
+    pub description: &'static str,
+}
+
 /// Makes the plugin's entry, `wearlaw_entry_1`, for one or several laws.
 ///
 /// With the feature `layout` of this crate the plugin also exports the layout of the ABI structs it was built with.
@@ -35,7 +44,13 @@ macro_rules! export_laws {
             law: *mut $crate::abi::LawTable,
         ) -> i32 {
             // SAFETY: handed through with the caller's own promise.
-            unsafe { $crate::sdk::export::entry(&[$($crate::sdk::export::fill::<$law>),+], index, host, law) }
+            unsafe {
+                let exporter = $crate::sdk::export::Exporter {
+                    version: option_env!("CARGO_PKG_VERSION").unwrap_or(""),
+                    description: option_env!("CARGO_PKG_DESCRIPTION").unwrap_or(""),
+                };
+                $crate::sdk::export::entry(&[$($crate::sdk::export::fill::<$law>),+], exporter, index, host, law)
+            }
         }
         $crate::__export_layout!();
     };
@@ -66,7 +81,7 @@ macro_rules! __export_layout {
 ///
 /// # Safety
 /// `law` is NULL or points to at least as many bytes as its first field says.
-pub unsafe fn entry(laws: &[Fill], index: i32, _host: *const Host, law: *mut LawTable) -> i32 {
+pub unsafe fn entry(laws: &[Fill], exporter: Exporter, index: i32, _host: *const Host, law: *mut LawTable) -> i32 {
     let Some(fill) = usize::try_from(index).ok().and_then(|k| laws.get(k)) else {
         return WL_NO_MORE;
     };
@@ -84,6 +99,12 @@ pub unsafe fn entry(laws: &[Fill], index: i32, _host: *const Host, law: *mut Law
         let mut table: LawTable = core::mem::zeroed();
         core::ptr::copy_nonoverlapping(law.cast::<u8>(), (&raw mut table).cast::<u8>(), size);
         fill(&mut table);
+        if table.version[0] == 0 {
+            write_text(&mut table.version, exporter.version);
+        }
+        if table.summary[0] == 0 {
+            write_text(&mut table.summary, exporter.description);
+        }
         core::ptr::copy_nonoverlapping((&raw const table).cast::<u8>(), law.cast::<u8>(), size);
     }
     WL_OK

@@ -5,7 +5,7 @@ use core::ffi::c_void;
 use core::mem::{offset_of, size_of};
 use core::ptr::null;
 
-use super::export::{entry, fill};
+use super::export::{Exporter, entry, fill};
 use super::prelude::*;
 use crate::abi;
 
@@ -27,6 +27,8 @@ impl About for Sample {
         }
     }
 }
+
+const EXPORTER: Exporter = Exporter { version: "9.8.7", description: "a crate of laws" };
 
 impl PointLaw for Sample {
     fn point(&self, at: &Point, out: &mut PointAnswer) -> Status {
@@ -152,11 +154,11 @@ fn the_entry_counts_its_laws_and_refuses_short_tables() {
     unsafe {
         let mut table: LawTable = core::mem::zeroed();
         table.struct_size = size_of::<LawTable>() as i64;
-        assert_eq!(entry(&[fill::<Sample>], 0, null(), &mut table), WL_OK);
+        assert_eq!(entry(&[fill::<Sample>], EXPORTER, 0, null(), &mut table), WL_OK);
         assert_eq!(table.struct_size, size_of::<LawTable>() as i64);
-        assert_eq!(entry(&[fill::<Sample>], 1, null(), &mut table), WL_NO_MORE);
+        assert_eq!(entry(&[fill::<Sample>], EXPORTER, 1, null(), &mut table), WL_NO_MORE);
         table.struct_size -= 8;
-        assert_eq!(entry(&[fill::<Sample>], 0, null(), &mut table), WL_FAILED);
+        assert_eq!(entry(&[fill::<Sample>], EXPORTER, 0, null(), &mut table), WL_FAILED);
     }
 }
 
@@ -173,4 +175,45 @@ fn a_refused_create_says_why() {
     let said: String = text.iter().take_while(|c| **c != 0).map(|c| *c as u8 as char).collect();
     assert_eq!((status, said.as_str()), (WL_FAILED, "told to refuse"));
     assert!(instance.is_null());
+}
+
+/// A law that says no more of itself than it must.
+struct Terse;
+
+impl About for Terse {
+    const NAME: &'static str = "terse";
+    const READS: i64 = WL_FIELD_SLIP;
+    const INSTANCE: Option<Self> = Some(Terse);
+}
+
+impl PointLaw for Terse {
+    fn point(&self, _at: &Point, _out: &mut PointAnswer) -> Status {
+        Status::Ok
+    }
+}
+
+#[test]
+fn what_a_law_does_not_say_is_its_crates() {
+    let said = |fill| {
+        // SAFETY: all-zero bytes are a valid table; the entry is told its true size.
+        let table = unsafe {
+            let mut table: LawTable = core::mem::zeroed();
+            table.struct_size = size_of::<LawTable>() as i64;
+            assert_eq!(entry(&[fill], EXPORTER, 0, null(), &mut table), WL_OK);
+            table
+        };
+        let text = |chars: &[core::ffi::c_char]| -> String {
+            chars.iter().take_while(|c| **c != 0).map(|c| *c as u8 as char).collect()
+        };
+        [text(&table.version), text(&table.summary)]
+    };
+    assert_eq!(said(fill::<Terse>), ["9.8.7", "a crate of laws"]);
+    assert_eq!(said(fill::<Sample>), ["1.2.3", "for tests"]);
+}
+
+#[test]
+fn a_law_without_options_refuses_them() {
+    assert!(Terse::create(None).is_ok() && Terse::create(Some("")).is_ok());
+    let refusal = Terse::create(Some("fast")).err();
+    assert_eq!(refusal.as_deref(), Some("found options \"fast\", expected none: terse has no options"));
 }

@@ -40,13 +40,7 @@ impl About for Archard {
         Quantity::new("n", Unit::NUMBER).default(1.0).about("velocity exponent"),
     ];
     const DEGREE: Degree = Degree::Constant(2);
-
-    fn create(options: Option<&str>) -> Result<Self, String> {
-        match options {
-            None | Some("") => Ok(Archard),
-            Some(options) => Err(format!("found options \"{options}\", expected none: archard has no options")),
-        }
-    }
+    const INSTANCE: Option<Self> = Some(Archard);
 }
 
 impl Law for Archard {

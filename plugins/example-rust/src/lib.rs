@@ -48,13 +48,7 @@ impl About for SofteningPlough {
             .about("tangent of the tilt angle"),
     ];
     const DEGREE: Degree = Degree::Value(1.0);
-
-    fn create(options: Option<&str>) -> Result<Self, String> {
-        match options {
-            None | Some("") => Ok(SofteningPlough),
-            Some(options) => Err(format!("found options \"{options}\", expected none: this law has no options")),
-        }
-    }
+    const INSTANCE: Option<Self> = Some(SofteningPlough);
 }
 
 impl PointLaw for SofteningPlough {

@@ -9,7 +9,7 @@ use super::super::descriptor::{LawDescriptor, Quantity};
 use super::super::fields::{Field, Shape};
 use super::super::values::{CallNumbers, Indices, Values};
 use super::columns::{blank_view, column_of, index_column_of};
-use super::{Batch, BatchError, Store};
+use super::{Batch, BatchError, Store, halves};
 
 /// Gathers the columns of a [`Batch`]; what the law did not declare is dropped.
 pub struct BatchBuilder<'a> {
@@ -130,7 +130,15 @@ impl<'a> BatchBuilder<'a> {
                 return Err(self.missing("state"));
             }
         }
+        (view.constants, view.inputs) = halves(&columns, view.constant_count);
+        let moves = |field: &Field| {
+            let mut view = view;
+            column_of(&mut view, *field).is_some_and(|column| column.step != 0)
+                || index_column_of(&mut view, *field).is_some_and(|column| column.step != 0)
+        };
+        let moving = law.fields().iter().filter(moves).collect();
         let store = Store {
+            moving,
             numbers: self.numbers,
             descriptor: law,
             view,

@@ -114,7 +114,7 @@ pub(super) fn behind(column: abi::Column, points: usize) -> abi::Column {
     }
 }
 
-/// Moves the column of `field` on by `points` points; a column that is absent has step 0 and stays.
+/// Lets the column of `field` begin `points` points later; one that is absent has step 0 and stays.
 pub(super) fn advance(view: &mut abi::View, field: Field, points: usize) {
     if field.shape() == Shape::Index {
         if let Some(column) = index_column_of(view, field) {

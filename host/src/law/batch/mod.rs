@@ -10,6 +10,7 @@ use wearlaw_plugin_api::abi;
 
 use super::descriptor::LawDescriptor;
 use super::evaluation::{NamedValues, PointInputs};
+use super::fields::Field;
 use super::values::CallNumbers;
 
 mod builder;
@@ -91,11 +92,13 @@ pub struct Batch<'a> {
 struct Store<'a> {
     numbers: CallNumbers,
     descriptor: &'a LawDescriptor,
-    /// Columns begin at the first point of the whole batch; `constants` and `inputs` are set per call.
+    /// Columns begin at the first point of the whole batch.
     view: abi::View,
-    /// Constants, then inputs.
+    /// Constants, then inputs; `view` leads here.
     columns: Vec<abi::Column>,
     columns_are_uniform: bool,
+    /// Fields that differ from point to point.
+    moving: Vec<Field>,
     _numbers: Vec<f64>,
     _indices: Vec<i64>,
     borrowed: PhantomData<(&'a [f64], &'a [i64])>,
@@ -106,6 +109,48 @@ struct Store<'a> {
 unsafe impl Send for Store<'_> {}
 // SAFETY: as for Send: shared reading of numbers that nobody writes.
 unsafe impl Sync for Store<'_> {}
+
+/// Views of one range of a batch after another, made in one place.
+pub(super) struct Cursor<'b> {
+    view: abi::View,
+    columns: Vec<abi::Column>,
+    store: &'b Store<'b>,
+    first: usize,
+    at: usize,
+}
+
+impl Cursor<'_> {
+    /// The ABI's view of `range` (counted in the cursor's batch), valid until the next one.
+    pub(super) fn at(&mut self, range: &Range<usize>) -> &abi::View {
+        let first = self.first + range.start;
+        self.view.points = range.len() as i64;
+        // The view stands at point `at`; a piece that is looked at again lies before it.
+        let step = first.wrapping_sub(self.at);
+        self.at = first;
+        for &field in &self.store.moving {
+            advance(&mut self.view, field, step);
+        }
+        self.view.state = behind(self.store.view.state, first);
+        if !self.store.columns_are_uniform {
+            self.columns.clear();
+            self.columns.extend(
+                self.store
+                    .columns
+                    .iter()
+                    .map(|column| behind(*column, first)),
+            );
+            (self.view.constants, self.view.inputs) =
+                halves(&self.columns, self.view.constant_count);
+        }
+        &self.view
+    }
+}
+
+/// Where the constants begin, and the inputs behind them.
+fn halves(columns: &[abi::Column], constants: i64) -> (*const abi::Column, *const abi::Column) {
+    let (constants, inputs) = columns.split_at(constants as usize);
+    (constants.as_ptr(), inputs.as_ptr())
+}
 
 impl<'a> Batch<'a> {
     /// Begins a batch of `points` points for the law of `descriptor`.
@@ -150,33 +195,25 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// The ABI's view of `range` (counted in this batch); `scratch` must outlive the use of its pointers.
-    pub(super) fn view(
-        &self,
-        range: Range<usize>,
-        request: i64,
-        scratch: &mut Vec<abi::Column>,
-    ) -> abi::View {
-        let mut view = self.store.view;
-        let first = self.first + range.start;
-        view.points = range.len() as i64;
-        view.request = request;
-        let mut columns = self.store.columns.as_slice();
-        if first != 0 {
-            for field in self.descriptor().fields().iter() {
-                advance(&mut view, field, first);
-            }
-            view.state = behind(view.state, first);
-            if !self.store.columns_are_uniform {
-                scratch.clear();
-                scratch.extend(columns.iter().map(|column| behind(*column, first)));
-                columns = scratch;
-            }
+    /// The ABI's view of this batch, if it is the whole one and nothing is wanted but the increment: no copy is made.
+    #[inline]
+    pub(super) fn whole_view(&self, request: i64) -> Option<&abi::View> {
+        let view = &self.store.view;
+        (request == 0 && self.first == 0 && view.points == self.points as i64).then_some(view)
+    }
+
+    /// Begins to go through this batch with views of its ranges.
+    pub(super) fn cursor(&self, request: i64) -> Cursor<'_> {
+        Cursor {
+            view: abi::View {
+                request,
+                ..self.store.view
+            },
+            columns: Vec::new(),
+            store: &self.store,
+            first: self.first,
+            at: 0,
         }
-        let (constants, inputs) = columns.split_at(view.constant_count as usize);
-        view.constants = constants.as_ptr();
-        view.inputs = inputs.as_ptr();
-        view
     }
 
     /// What the law is given at a point of this batch: fields, constants, further inputs and state variables.

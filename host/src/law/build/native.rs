@@ -7,8 +7,14 @@ use std::process::Command;
 use super::command::Log;
 use super::{Aside, BuildError, BuildRequest, Language, headers, library_file_name};
 
-/// For every compile: no fused multiply-add that only some machines have, exports as the source says.
-const COMPILE_FLAGS: [&str; 2] = ["-ffp-contract=off", "-fvisibility=default"];
+/// For every compile: no fused multiply-add that only some machines have, exports as the source says, and no promises
+/// about `errno` and traps, which would keep gcc from vectorising a law that has a branch.
+const COMPILE_FLAGS: [&str; 4] =
+    ["-ffp-contract=off", "-fvisibility=default", "-fno-math-errno", "-fno-trapping-math"];
+
+/// For Fortran: without the first, gfortran takes the vector library's `pow` in full vectors and the scalar one in what
+/// is left over, so that bits depend on the batch. The second is for the many arguments that one form of procedure has.
+const FORTRAN_FLAGS: [&str; 2] = ["-nostdinc", "-Wno-unused-dummy-argument"];
 
 /// Compiles each source with its language's compiler and links the objects.
 pub(super) fn build(

@@ -10,7 +10,7 @@ use super::super::checks::{LENGTH_TOLERANCE, no_nan, unit_lengths};
 use super::super::evaluation::{EvaluateError, Evaluation, Evaluator, NumberText, PointInputs};
 use super::super::fields::{Claim, Fields, OutputItem};
 use super::super::table::TEXT_SIZE;
-use super::{LawInstance, Raw};
+use super::{Again, LawInstance, Raw, bit, request};
 
 impl LawInstance {
     /// Asks the law again, for the status of every point and for its words, and says what the call comes to.
@@ -21,28 +21,31 @@ impl LawInstance {
         piece: Range<usize>,
         outputs: &mut Outputs<'_>,
         raw: &Raw,
-        scratch: &mut Vec<abi::Column>,
     ) -> Result<Evaluation, EvaluateError> {
-        let mut statuses = vec![abi::WL_OK; piece.len()];
         let asks = self.descriptor().writes(OutputItem::Status) && outputs.status.is_none();
-        let mut words: Vec<c_char> = vec![0; TEXT_SIZE];
-        let status = asks.then_some(statuses.as_mut_slice());
-        let again = self.call(
-            batch,
-            piece.clone(),
+        let statuses = asks.then(|| vec![abi::WL_OK; piece.len()]);
+        let mut again = Again {
+            statuses,
+            words: vec![0; TEXT_SIZE],
+        };
+        let wanted = request(self.descriptor(), outputs) | bit(asks, abi::WL_OUT_STATUS);
+        let view = batch.range(piece.clone());
+        let second = self.call(
+            view.cursor(wanted).at(&(0..piece.len())),
+            &piece,
             outputs,
-            status,
-            Some(&mut words),
-            scratch,
+            Some(&mut again),
         );
-        if let Some(given) = &outputs.status {
-            statuses.copy_from_slice(&given[piece.clone()]);
-        }
-        let text = text_of(&words);
-        let point = first_bad(&statuses, raw.status)
+        let statuses = match (&again.statuses, &outputs.status) {
+            (Some(statuses), _) => statuses.as_slice(),
+            (None, Some(given)) => &given[piece.clone()],
+            (None, None) => &[],
+        };
+        let text = text_of(&again.words);
+        let point = first_bad(statuses, raw.status)
             .or_else(|| named(raw.first_bad, piece.len()))
-            .or_else(|| named(again.first_bad, piece.len()))
-            .or_else(|| self.search(batch, piece.clone(), outputs, raw.status, scratch));
+            .or_else(|| named(second.first_bad, piece.len()))
+            .or_else(|| self.search(batch, piece.clone(), outputs, raw.status));
         let at = point.map(|point| batch.inputs_at(piece.start + point));
         self.verdict(raw, at, text)
     }
@@ -54,12 +57,11 @@ impl LawInstance {
         piece: Range<usize>,
         outputs: &mut Outputs<'_>,
         status: i32,
-        scratch: &mut Vec<abi::Column>,
     ) -> Option<usize> {
-        let mut points = piece.clone();
-        let found = points.find(|point| {
-            let single = self.call(batch, *point..point + 1, outputs, None, None, scratch);
-            severity(single.status) >= severity(status)
+        let mut cursor = batch.cursor(request(self.descriptor(), outputs));
+        let found = piece.clone().find(|point| {
+            let one = *point..point + 1;
+            severity(self.call(cursor.at(&one), &one, outputs, None).status) >= severity(status)
         })?;
         Some(found - piece.start)
     }

@@ -33,13 +33,7 @@ impl Uniform {
     /// Constants whose factor is still to be computed from K, H and dt.
     pub(super) fn new(m: f64, n: f64, parts: (f64, f64, f64)) -> Self {
         let (c, value) = (Scale::ONE, 1.0);
-        Self {
-            m,
-            n,
-            parts,
-            c,
-            value,
-        }
+        Self { m, n, parts, c, value }
     }
 }
 

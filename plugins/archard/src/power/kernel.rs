@@ -61,10 +61,7 @@ pub(super) fn logarithm(m: f64, x: f64) -> Double {
     let (f, k) = split(x.abs());
     let x = log2(f, k);
     let (hi, e) = two_product(m, x.hi);
-    Double {
-        hi,
-        lo: m.mul_add(x.lo, e),
-    }
+    Double { hi, lo: m.mul_add(x.lo, e) }
 }
 
 /// [`lane`] from the two logarithms on (of which a kind that is not general has none).
@@ -127,10 +124,7 @@ pub(super) fn conclude<const M: u8, const N: u8>(
             f64::NAN
         }
     };
-    Outcome {
-        wear: settle(wear),
-        slope: settle(slope),
-    }
+    Outcome { wear: settle(wear), slope: settle(slope) }
 }
 
 /// Largest `|m log2 p| + |n log2 v|` that [`lane`] answers for, negative if it answers for none:
@@ -178,10 +172,7 @@ pub(super) fn log2(f: f64, k: f64) -> Double {
     let (first, first_e) = two_product(s, u);
     let first_lo = s_lo.mul_add(y.mul_add(2.0, u), s.mul_add(u_lo, first_e));
     let (hi, hi_e) = fast_two_sum(k, first);
-    Double {
-        hi,
-        lo: hi_e + first_lo,
-    }
+    Double { hi, lo: hi_e + first_lo }
 }
 
 /// `(hi + lo) 2^(t + k)` as a double near 1 and a binary exponent.

@@ -33,12 +33,5 @@ pub(super) fn products<const M: u8, const N: u8>(p: f64, v: f64, c: f64) -> (Out
 #[inline(always)]
 pub(super) fn lane<const M: u8, const N: u8>(p: f64, v: f64, c: f64) -> Outcome {
     let (o, left) = products::<M, N>(p, v, c);
-    if left {
-        Outcome {
-            wear: f64::NAN,
-            slope: f64::NAN,
-        }
-    } else {
-        o
-    }
+    if left { Outcome { wear: f64::NAN, slope: f64::NAN } } else { o }
 }

@@ -40,26 +40,14 @@ pub(super) fn run<C: Constants>(
 /// [`choose`] compiled for AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn run_avx2<C: Constants>(
-    p: &[f64],
-    v: &[f64],
-    constants: C,
-    out: &mut [f64],
-    slope: Option<&mut [f64]>,
-) {
+fn run_avx2<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], slope: Option<&mut [f64]>) {
     choose(p, v, constants, out, slope);
 }
 
 /// Without fused multiply-add in hardware a loop has nothing to gain over single points, which the
 /// mathematics library's `fma` bounds; so these loops are not compiled a second time.
 #[cfg(target_arch = "x86_64")]
-fn run_any<C: Constants>(
-    p: &[f64],
-    v: &[f64],
-    constants: C,
-    out: &mut [f64],
-    slope: Option<&mut [f64]>,
-) {
+fn run_any<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], slope: Option<&mut [f64]>) {
     let constants = constants.ready();
     if constants.kinds() == (LINEAR, LINEAR) && slope.is_none() {
         if products::<C, LINEAR, LINEAR, false>(p, v, constants, out, &mut []) {
@@ -72,13 +60,7 @@ fn run_any<C: Constants>(
 }
 
 #[inline(always)]
-fn choose<C: Constants>(
-    p: &[f64],
-    v: &[f64],
-    constants: C,
-    out: &mut [f64],
-    mut slope: Option<&mut [f64]>,
-) {
+fn choose<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], mut slope: Option<&mut [f64]>) {
     let constants = constants.ready();
     macro_rules! by_kind {
         ($($by:ident $m:ident $n:ident),*) => {
@@ -117,11 +99,7 @@ fn sweep<C: Constants, const M: u8, const N: u8, const SLOPE: bool>(
         let len = STRIP.min(out.len() - start);
         let (p, v) = (&p[start..start + len], &v[start..start + len]);
         let out = &mut out[start..start + len];
-        let slope = if SLOPE {
-            &mut slope[start..start + len]
-        } else {
-            &mut []
-        };
+        let slope = if SLOPE { &mut slope[start..start + len] } else { &mut [] };
         let constants = constants.part(start, len);
         if M == GENERAL {
             logarithms(|i| constants.at(i).0, p, &mut ah[..len], &mut al[..len]);
@@ -132,14 +110,8 @@ fn sweep<C: Constants, const M: u8, const N: u8, const SLOPE: bool>(
         let (ah, al, bh, bl) = (&ah[..len], &al[..len], &bh[..len], &bl[..len]);
         for i in 0..len {
             let (m, n, c) = constants.at(i);
-            let a = Double {
-                hi: ah[i],
-                lo: al[i],
-            };
-            let b = Double {
-                hi: bh[i],
-                lo: bl[i],
-            };
+            let a = Double { hi: ah[i], lo: al[i] };
+            let b = Double { hi: bh[i], lo: bl[i] };
             let o = conclude::<M, N>(p[i], v[i], a, b, m, n, c);
             out[i] = o.wear;
             if SLOPE {
@@ -193,13 +165,7 @@ fn products<C: Constants, const M: u8, const N: u8, const SLOPE: bool>(
 
 /// Evaluates the points that a sweep left unanswered, and those whose kind it did not serve.
 #[inline(always)]
-fn finish<C: Constants>(
-    p: &[f64],
-    v: &[f64],
-    constants: C,
-    out: &mut [f64],
-    mut slope: Option<&mut [f64]>,
-) {
+fn finish<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], mut slope: Option<&mut [f64]>) {
     for i in 0..out.len() {
         if out[i].is_nan() || constants.odd(i) {
             let (m, n, c) = constants.at(i);

@@ -41,13 +41,8 @@ fn one_general_exponent_beside_one_of_1() {
 
 #[test]
 fn increments_within_four_units_in_the_last_place() {
-    let law = |r: &mut Sequence, m, n| Law {
-        m,
-        n,
-        k: r.decade(-9.0, -1.0),
-        h: r.decade(0.0, 12.0),
-        dt: r.decade(-6.0, 6.0),
-    };
+    let law =
+        |r: &mut Sequence, m, n| Law { m, n, k: r.decade(-9.0, -1.0), h: r.decade(0.0, 12.0), dt: r.decade(-6.0, 6.0) };
     let (w, s) = worst(1000, 40, |r| {
         let (m, n) = (r.within(0.1, 5.0), r.within(0.1, 5.0));
         law(r, m, n)
@@ -66,10 +61,7 @@ fn known_increments_of_any_size() {
         let got = Law { m, n, k, h, dt }.point(p, v).0;
         // Doubles of one sign are ordered as their bits; infinity follows the largest.
         let off = got.to_bits().abs_diff(known.to_bits());
-        assert!(
-            off <= 2,
-            "{got:e} for {known:e}: K {k:e} H {h:e} dt {dt:e} p {p:e} v {v:e} m {m} n {n}"
-        );
+        assert!(off <= 2, "{got:e} for {known:e}: K {k:e} H {h:e} dt {dt:e} p {p:e} v {v:e} m {m} n {n}");
         finite += usize::from(known.is_finite() && known != 0.0);
     }
     assert!(finite > 200);
@@ -77,17 +69,7 @@ fn known_increments_of_any_size() {
 
 #[test]
 fn no_overflow_only_in_between() {
-    let at = |k, h, m, p| {
-        Law {
-            m,
-            n: 1.0,
-            k,
-            h,
-            dt: 1.0,
-        }
-        .point(p, 1.0)
-        .0
-    };
+    let at = |k, h, m, p| Law { m, n: 1.0, k, h, dt: 1.0 }.point(p, 1.0).0;
     let near = |x: f64, y: f64| assert!((x / y - 1.0).abs() < 3e-15, "{x:e} for {y:e}");
     near(at(1e-300, 1.0, 40.0, 1e9), 1e60);
     near(at(1e-200, 1e200, 20.0, 1e9), 1e-220);

@@ -12,11 +12,7 @@ fn open_points_do_not_wear() {
             for p in [0.0, -0.0, -1.0, -1e-310, -1e300, -5e-324] {
                 for v in [0.5, 0.0, -0.0, 1e-310] {
                     let got = power(m, n).point(p, v);
-                    assert_eq!(
-                        (got.0.to_bits(), got.1.to_bits()),
-                        (0, 0),
-                        "p {p} v {v} m {m} n {n}"
-                    );
+                    assert_eq!((got.0.to_bits(), got.1.to_bits()), (0, 0), "p {p} v {v} m {m} n {n}");
                 }
             }
         }
@@ -28,11 +24,7 @@ fn standstill() {
     for m in KINDS {
         let free = power(m, 0.0);
         assert_eq!(free.point(3.0, 0.0), free.point(3.0, 7.0));
-        assert_eq!(
-            free.point(3.0, f64::NAN),
-            free.point(3.0, 7.0),
-            "n = 0 reads no velocity"
-        );
+        assert_eq!(free.point(3.0, f64::NAN), free.point(3.0, 7.0), "n = 0 reads no velocity");
         for n in [1.0, 0.3, 1.5, 130.0] {
             assert_eq!(power(m, n).point(3.0, 0.0), (0.0, 0.0));
             assert_eq!(power(m, n).point(3.0, -0.0), (0.0, 0.0));
@@ -58,51 +50,16 @@ fn what_is_not_finite_is_never_hidden() {
                 assert!(power(m, n).point(x, 0.5).0.is_nan(), "p {x} m {m} n {n}");
                 if n != 0.0 {
                     for p in [2.0, 0.0, -1.0] {
-                        assert!(
-                            power(m, n).point(p, x).0.is_nan(),
-                            "p {p} v {x} m {m} n {n}"
-                        );
+                        assert!(power(m, n).point(p, x).0.is_nan(), "p {p} v {x} m {m} n {n}");
                     }
                 }
                 assert!(power(x, n).point(2.0, 0.5).0.is_nan());
                 assert!(power(m, x).point(2.0, 0.5).0.is_nan());
-                assert!(
-                    Law {
-                        k: x,
-                        ..power(m, n)
-                    }
-                    .point(2.0, 0.5)
-                    .0
-                    .is_nan()
-                );
-                assert!(
-                    Law {
-                        h: x,
-                        ..power(m, n)
-                    }
-                    .point(2.0, 0.5)
-                    .0
-                    .is_nan()
-                );
-                assert!(
-                    Law {
-                        dt: x,
-                        ..power(m, n)
-                    }
-                    .point(2.0, 0.5)
-                    .0
-                    .is_nan()
-                );
+                assert!(Law { k: x, ..power(m, n) }.point(2.0, 0.5).0.is_nan());
+                assert!(Law { h: x, ..power(m, n) }.point(2.0, 0.5).0.is_nan());
+                assert!(Law { dt: x, ..power(m, n) }.point(2.0, 0.5).0.is_nan());
             }
-            assert!(
-                Law {
-                    h: 0.0,
-                    ..power(m, n)
-                }
-                .point(2.0, 0.5)
-                .0
-                .is_nan()
-            );
+            assert!(Law { h: 0.0, ..power(m, n) }.point(2.0, 0.5).0.is_nan());
         }
     }
 }
@@ -112,22 +69,8 @@ fn nothing_wears_without_coefficient_or_time() {
     for m in KINDS {
         for n in KINDS {
             for (p, v) in [(2.0, 0.5), (1e300, 1e300), (1e-300, 1e-300), (5e-324, 3.0)] {
-                assert_eq!(
-                    Law {
-                        k: 0.0,
-                        ..power(m, n)
-                    }
-                    .point(p, v),
-                    (0.0, 0.0)
-                );
-                assert_eq!(
-                    Law {
-                        dt: 0.0,
-                        ..power(m, n)
-                    }
-                    .point(p, v),
-                    (0.0, 0.0)
-                );
+                assert_eq!(Law { k: 0.0, ..power(m, n) }.point(p, v), (0.0, 0.0));
+                assert_eq!(Law { dt: 0.0, ..power(m, n) }.point(p, v), (0.0, 0.0));
             }
         }
     }
@@ -138,14 +81,7 @@ fn signs_of_the_factor_pass_through() {
     for m in KINDS {
         for n in KINDS {
             let (w, s) = power(m, n).point(1.7, 0.4);
-            assert_eq!(
-                Law {
-                    k: -1.0,
-                    ..power(m, n)
-                }
-                .point(1.7, 0.4),
-                (-w, -s)
-            );
+            assert_eq!(Law { k: -1.0, ..power(m, n) }.point(1.7, 0.4), (-w, -s));
         }
     }
 }
@@ -162,12 +98,7 @@ fn overflow_is_infinite_and_underflow_zero() {
 
 #[test]
 fn whole_exponents_of_small_numbers_are_exact() {
-    for (m, p, wear) in [
-        (2.0, 3.0, 9.0),
-        (3.0, 5.0, 125.0),
-        (-1.0, 4.0, 0.25),
-        (0.5, 9.0, 3.0),
-    ] {
+    for (m, p, wear) in [(2.0, 3.0, 9.0), (3.0, 5.0, 125.0), (-1.0, 4.0, 0.25), (0.5, 9.0, 3.0)] {
         assert_eq!(power(m, 0.0).point(p, 1.0).0, wear);
     }
     assert_eq!(power(2.0, 2.0).point(10.0, 10.0).0, 1e4);

@@ -44,13 +44,7 @@ struct Law {
 
 /// The bare power.
 fn power(m: f64, n: f64) -> Law {
-    Law {
-        m,
-        n,
-        k: 1.0,
-        h: 1.0,
-        dt: 1.0,
-    }
+    Law { m, n, k: 1.0, h: 1.0, dt: 1.0 }
 }
 
 impl Law {
@@ -83,17 +77,11 @@ fn evaluate(by: Instructions, inputs: &Inputs, points: usize) -> (Vec<f64>, Vec<
     increments_by(by, inputs, &mut w, Some(&mut s));
     let mut alone = vec![f64::NAN; points];
     increments_by(by, inputs, &mut alone, None);
-    assert_eq!(
-        bits(&alone),
-        bits(&w),
-        "asking for slopes changed the increments"
-    );
+    assert_eq!(bits(&alone), bits(&w), "asking for slopes changed the increments");
     (w, s)
 }
 
 /// Bits, with every NaN the same.
 fn bits(x: &[f64]) -> Vec<u64> {
-    x.iter()
-        .map(|x| if x.is_nan() { 1 } else { x.to_bits() })
-        .collect()
+    x.iter().map(|x| if x.is_nan() { 1 } else { x.to_bits() }).collect()
 }

@@ -1,24 +1,11 @@
 //! The same bits whatever the instructions, the batch, and the steps of columns.
 
-use super::{
-    Instructions, Instructions::Best, Instructions::Portable, Law, Sequence, bits, evaluate,
-};
+use super::{Instructions, Instructions::Best, Instructions::Portable, Law, Sequence, bits, evaluate};
 use crate::power::{Column, Inputs};
 
 /// Points of every sort: usual, far outside, silent, broken.
 fn points(r: &mut Sequence, count: usize) -> Vec<f64> {
-    let odd = [
-        0.0,
-        -0.0,
-        -3.0,
-        1.0,
-        5e-324,
-        1e-310,
-        f64::MIN_POSITIVE,
-        f64::MAX,
-        f64::INFINITY,
-        f64::NAN,
-    ];
+    let odd = [0.0, -0.0, -3.0, 1.0, 5e-324, 1e-310, f64::MIN_POSITIVE, f64::MAX, f64::INFINITY, f64::NAN];
     (0..count)
         .map(|_| match r.bits() % 8 {
             0 => odd[(r.bits() % 10) as usize],
@@ -33,19 +20,9 @@ fn laws(r: &mut Sequence) -> Vec<Law> {
     let mut laws = Vec::new();
     for m in [0.0, 1.0, 2.0, 1.37, -0.4, 90.0, 300.0] {
         for n in [0.0, 1.0, 0.5, 2.81, -1.2, 200.0] {
-            let (k, h, dt) = (
-                r.decade(-9.0, 0.0),
-                r.decade(0.0, 10.0),
-                r.decade(-3.0, 3.0),
-            );
+            let (k, h, dt) = (r.decade(-9.0, 0.0), r.decade(0.0, 10.0), r.decade(-3.0, 3.0));
             laws.push(Law { m, n, k, h, dt });
-            laws.push(Law {
-                m,
-                n,
-                k: r.decade(-300.0, 300.0),
-                h,
-                dt,
-            });
+            laws.push(Law { m, n, k: r.decade(-300.0, 300.0), h, dt });
         }
     }
     laws
@@ -74,31 +51,18 @@ fn batch_sizes_do_not_show() {
             let to = from + size;
             let (w, s) = law.batch(Best, &p[from..to], &v[from..to]);
             assert_eq!(bits(&w), bits(&whole[from..to]), "{size} points, {law:?}");
-            assert_eq!(
-                bits(&s),
-                bits(&whole_slope[from..to]),
-                "{size} points, {law:?}"
-            );
+            assert_eq!(bits(&s), bits(&whole_slope[from..to]), "{size} points, {law:?}");
         }
     }
 }
 
 /// The batch of `inputs` against its points one by one, each with uniform columns.
-fn like_points(
-    by: Instructions,
-    inputs: &Inputs,
-    at: impl Fn(usize) -> ([f64; 2], Law),
-    count: usize,
-) {
+fn like_points(by: Instructions, inputs: &Inputs, at: impl Fn(usize) -> ([f64; 2], Law), count: usize) {
     let (w, s) = evaluate(by, inputs, count);
     for i in 0..count {
         let ([p, v], law) = at(i);
         let (one, one_slope) = law.point(p, v);
-        assert_eq!(
-            bits(&[w[i], s[i]]),
-            bits(&[one, one_slope]),
-            "point {i}: p {p:e} v {v:e} {law:?}"
-        );
+        assert_eq!(bits(&[w[i], s[i]]), bits(&[one, one_slope]), "point {i}: p {p:e} v {v:e} {law:?}");
     }
 }
 
@@ -136,18 +100,8 @@ fn steps_of_columns_do_not_show() {
             dt: 0.37,
         };
         let at = |i: usize| {
-            let x: [f64; 6] =
-                std::array::from_fn(|c| row(if (mask >> c) & 1 == 0 { 7 } else { i })[c]);
-            (
-                [x[0], x[1]],
-                Law {
-                    m: x[2],
-                    n: x[3],
-                    k: x[4],
-                    h: x[5],
-                    dt: 0.37,
-                },
-            )
+            let x: [f64; 6] = std::array::from_fn(|c| row(if (mask >> c) & 1 == 0 { 7 } else { i })[c]);
+            ([x[0], x[1]], Law { m: x[2], n: x[3], k: x[4], h: x[5], dt: 0.37 })
         };
         like_points(Best, &inputs, at, COUNT);
         if mask == 63 {

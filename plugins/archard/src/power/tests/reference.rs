@@ -31,25 +31,16 @@ impl Wide {
             e => ((bits & ((1 << 52) - 1)) | (1 << 52), e as i64 - 1023),
         };
         let shift = mantissa.leading_zeros() - 11;
-        Self {
-            mantissa: u128::from(mantissa) << (75 + shift),
-            exponent: exponent - i64::from(shift),
-        }
+        Self { mantissa: u128::from(mantissa) << (75 + shift), exponent: exponent - i64::from(shift) }
     }
 
     pub(super) fn times(self, b: Self) -> Self {
         let product = high(self.mantissa, b.mantissa);
         let exponent = self.exponent + b.exponent;
         if product >> 127 == 1 {
-            Self {
-                mantissa: product,
-                exponent: exponent + 1,
-            }
+            Self { mantissa: product, exponent: exponent + 1 }
         } else {
-            Self {
-                mantissa: product << 1,
-                exponent,
-            }
+            Self { mantissa: product << 1, exponent }
         }
     }
 
@@ -61,10 +52,7 @@ impl Wide {
         let q = (q << 52) + ((r << 52) / divisor);
         let shift = q.leading_zeros();
         // q is 2^127 times the quotient of the mantissas before the shift.
-        Self {
-            mantissa: q << shift,
-            exponent: self.exponent - b.exponent - i64::from(shift),
-        }
+        Self { mantissa: q << shift, exponent: self.exponent - b.exponent - i64::from(shift) }
     }
 
     /// log2 in units of 2^-112.
@@ -96,11 +84,7 @@ impl Wide {
         } else {
             product.checked_shr((-w.exponent) as u32).unwrap_or(0)
         } as i128;
-        if (log < 0) == (m < 0.0) {
-            product
-        } else {
-            -product
-        }
+        if (log < 0) == (m < 0.0) { product } else { -product }
     }
 
     fn exp2(t: i128) -> Self {
@@ -113,10 +97,7 @@ impl Wide {
             term = (high(term, x) << 1) / i;
             sum += term;
         }
-        Self {
-            mantissa: sum,
-            exponent,
-        }
+        Self { mantissa: sum, exponent }
     }
 
     /// `self p^m v^n`, `|m log2 p|` and `|n log2 v|` below 16384.
@@ -133,11 +114,7 @@ impl Wide {
         // Both in units of 2^-50 of a last place.
         let count = |w: Self| {
             let shift = w.exponent - 127 - place + 50;
-            if shift >= 0 {
-                w.mantissa << shift
-            } else {
-                w.mantissa >> -shift
-            }
+            if shift >= 0 { w.mantissa << shift } else { w.mantissa >> -shift }
         };
         count(self).abs_diff(count(w)) as f64 / (1u64 << 50) as f64
     }
@@ -151,9 +128,5 @@ fn knows_roots_and_powers() {
     assert!(one.by_powers(10.0, 1.0, 22.0, 1.0).ulps(1e22) < 1e-12);
     assert!(Wide::new(1e-9).over(7.0).ulps(1e-9 / 7.0) <= 0.5);
     assert!(Wide::new(5e-324).over(3e-310).ulps(5e-324 / 3e-310) <= 0.5);
-    assert!(
-        one.by_powers(3.0, 1.0, 5.0, 1.0)
-            .ulps(243.0 * (1.0 + f64::EPSILON))
-            > 0.99
-    );
+    assert!(one.by_powers(3.0, 1.0, 5.0, 1.0).ulps(243.0 * (1.0 + f64::EPSILON)) > 0.99);
 }

@@ -1,0 +1,41 @@
+//! Listens to a run: shows its progress, writes its fields, hears Ctrl-C.
+
+use super::console::Console;
+use super::interrupt::Interrupt;
+use super::progress::{Progress, Stage};
+use crate::output::{FieldSeries, OutputError};
+use crate::record::{Event, Geometry, Observer, Wish};
+
+/// What `run` hears while the solver works.
+pub(super) struct Listener<'a> {
+    pub(super) console: &'a Console,
+    pub(super) interrupt: &'a Interrupt,
+    pub(super) progress: Progress,
+    pub(super) fields: Option<FieldSeries>,
+    pub(super) geometry: Geometry<'static>,
+    /// The first file that could not be written; it ends the run.
+    pub(super) trouble: Option<OutputError>,
+}
+
+impl Observer for Listener<'_> {
+    fn observe(&mut self, event: Event<'_>) -> Wish {
+        match event {
+            Event::Step { row, steps, done } => self.progress.show(&Stage {
+                fraction: done,
+                time: row.time,
+                step: steps,
+                contact_area: row.contact_area,
+                max_wear_depth: row.max_wear_depth,
+            }),
+            Event::Warning(text) => self.console.note(&format!("warning: {text}")),
+            Event::Snapshot(snapshot) => {
+                if let Some(series) = &mut self.fields
+                    && let Err(error) = series.write(snapshot, &self.geometry)
+                {
+                    self.trouble.get_or_insert(error);
+                }
+            }
+        }
+        if self.interrupt.asked() || self.trouble.is_some() { Wish::Stop } else { Wish::GoOn }
+    }
+}
