@@ -102,7 +102,7 @@ impl Toolchain<'_> {
         }
         command.arg("-I").arg(self.work.join("include"));
         if language == Language::Fortran {
-            command.arg("-J").arg(self.work);
+            command.arg("-J").arg(self.work).args(FORTRAN_FLAGS);
         }
         command.args(&self.request.extra_flags);
         command
