@@ -54,15 +54,15 @@ pub enum Error {
     /// A law failed at a point.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
+    /// The scene asks for what it cannot have.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The run ended before its time.
+    #[error(transparent)]
+    Solve(Box<SolveError>),
     /// A prescribed history is wrong.
     #[error(transparent)]
     History(#[from] HistoryError),
-    /// A scene asks for what it cannot have.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// A run ended before its time. Boxed: it is the largest by far.
-    #[error(transparent)]
-    Solve(Box<SolveError>),
     /// Results could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -138,8 +138,8 @@ pub enum UsageError {
 }
 
 impl From<SolveError> for Error {
-    fn from(error: SolveError) -> Self {
-        Self::Solve(Box::new(error))
+    fn from(error: SolveError) -> Error {
+        Error::Solve(Box::new(error))
     }
 }
 
@@ -153,12 +153,12 @@ impl Error {
     pub fn render(&self, color: bool) -> String {
         match self {
             Self::Scene(error) => error.render(color),
-            Self::Lookup(error) => error.render(color),
             Self::Plan(error) => match &*error.problem {
                 // The deck's own line says more than the scene's that names the deck.
                 PlanProblem::Deck(deck @ DeckError::Command(_)) => deck.render(),
                 _ => error.render(color),
             },
+            Self::Lookup(error) => error.render(color),
             Self::Deck(error @ DeckError::Command(_)) => error.render(),
             other => Located::new(printable(&other.to_string()), None).render(color),
         }
