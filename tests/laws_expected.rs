@@ -4,16 +4,18 @@
 //! A column is a constant, a field (vectors: `_x`, `_y`, `_z`; an empty cell: not given), `dt`, `absolute_zero`, a state
 //! variable with `_start` or `_end`, or an answer. Increments, state variables and derivatives agree to 4 ulp, components
 //! of directions to 1e-15.
+#![allow(unsafe_code)] // hands a function of this program over as the entry of a law
 
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 
 use wearlaw::law::build::{BuildRequest, build};
 use wearlaw::law::{
-    BatchBuilder, CallNumbers, Evaluation, Evaluator, Field, LawDescriptor, LawInstance, LoadOptions, OutputItem,
-    Outputs, Plugin, Values,
+    BatchBuilder, CallNumbers, Embedded, Evaluation, Evaluator, Field, LawDescriptor, LawInstance, LoadOptions,
+    OutputItem, Outputs, Plugin, Values,
 };
 
 /// Most units in the last place between an answer and its expected value.
@@ -157,13 +159,8 @@ fn assert_known(about: &LawDescriptor, table: &Expected) {
 
 /// Holds the law of a folder to its table.
 fn hold(folder: &Path, sources: Vec<PathBuf>, library: PathBuf) {
-    let mut request = BuildRequest { output: Some(library), ..BuildRequest::default() };
-    if sources[0].is_dir() {
-        request.extra_flags = vec!["--offline".into()];
-    }
-    request.sources = sources;
-    let built = build(&request).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let plugin = Plugin::open(&built.library, &LoadOptions::default()).expect("the law loads");
+    let library = library_of(sources, library);
+    let plugin = Plugin::open(library, &LoadOptions::default()).expect("the law loads");
     assert!(plugin.warnings().is_empty(), "{:?}", plugin.warnings());
     let law = plugin.law(None).expect("the folder holds one law").create(None).expect("the law starts");
     let about = law.descriptor();
@@ -192,6 +189,36 @@ fn hold(folder: &Path, sources: Vec<PathBuf>, library: PathBuf) {
         row += points;
     }
     println!("{}: {} rows, at worst {worst:.3} of what is allowed", about.name, table.rows());
+}
+
+#[test]
+fn embedded_and_loaded_archard_give_the_same_bits() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plugins/archard").canonicalize().expect("a folder");
+    let libraries = tempfile::tempdir().expect("a temporary folder");
+    let library = library_of(vec![folder.clone()], libraries.path().join("archard"));
+    // SAFETY: the entry is made by `export_laws!`, which keeps the contract.
+    let embedded = unsafe { Embedded::new("archard", wearlaw_archard::wearlaw_entry_1) };
+    let [embedded, loaded] = [Plugin::from_entry(Arc::new(embedded)), Plugin::open(library, &LoadOptions::default())]
+        .map(|plugin| plugin.expect("archard loads").law(None).expect("there is one").create(None).expect("it starts"));
+    assert_eq!(embedded.descriptor(), loaded.descriptor());
+    let table = Expected::read(&folder.join("expected.csv"));
+    for row in 0..table.rows() {
+        let [one, other] = [&embedded, &loaded].map(|law| {
+            let answers = evaluate(law, &table, row, 1);
+            [answers.increment[0].to_bits(), answers.d_pressure[0].to_bits()]
+        });
+        assert_eq!(one, other, "row {row}");
+    }
+}
+
+/// Builds a law's library.
+fn library_of(sources: Vec<PathBuf>, library: PathBuf) -> PathBuf {
+    let mut request = BuildRequest { output: Some(library), ..BuildRequest::default() };
+    if sources[0].is_dir() {
+        request.extra_flags = vec!["--offline".into()];
+    }
+    request.sources = sources;
+    build(&request).unwrap_or_else(|error| panic!("{:?}: {error}", request.sources)).library
 }
 
 /// The files that a folder's law is built from: a crate, or the sources of one language.

@@ -6,8 +6,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use libloading::Library;
+use libloading::os::unix::Library;
 use wearlaw::law::layout_check::{LayoutMismatch, check_library};
+use wearlaw::law::{LoadError, LoadOptions, Plugin};
 
 /// A change of the source: file under `plugin-api/src`, the words there, what takes their place.
 type Change = (&'static str, &'static str, &'static str);
@@ -90,13 +91,23 @@ impl Workshop {
         command.output().expect("cargo runs")
     }
 
+    /// Where the library of a name is kept.
+    fn kept(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX))
+    }
+
+    /// Opens a kept library as the program does.
+    fn plugin(&self, name: &str) -> Result<Plugin, LoadError> {
+        Plugin::open(self.kept(name), &LoadOptions::default())
+    }
+
     /// Builds the law and opens it under a name of its own.
     fn law(&self, name: &str, changes: &[Change]) -> Library {
         let output = self.cargo(changes);
         assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
         let (prefix, suffix) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
         let built = self.folder.join(format!("target/debug/{prefix}law{suffix}"));
-        let kept = self.folder.join(format!("{prefix}{name}{suffix}"));
+        let kept = self.kept(name);
         // Another file, not the one that an earlier library was loaded from.
         let _ = fs::remove_file(&kept);
         fs::copy(&built, &kept).expect("the library can be copied");
@@ -169,6 +180,11 @@ fn a_law_built_with_other_structs_is_refused_and_one_built_with_longer_structs_i
         ],
     );
     assert_eq!(check_library(&appended), Ok(()));
+    for name in ["same", "appended"] {
+        let law = workshop.plugin(name).expect("the law loads").law(None).expect("it is the only one").clone();
+        assert_eq!(law.descriptor().name, "small");
+        assert!(law.create(None).is_ok());
+    }
 
     let (live, swapped) = ("pub pressure: Column,", "pub slip: Column,");
     let (first, second) = ("        pressure: Column,\n", "        slip: Column,\n");
@@ -213,6 +229,12 @@ fn a_law_built_with_other_structs_is_refused_and_one_built_with_longer_structs_i
     );
     let text = refusal("recalled", &recalled);
     assert!(text.contains("Frozen10.law.extension"), "{text}");
+
+    // The loader refuses it in the same words.
+    let refused = workshop.plugin("retyped").expect_err("a law with other structs loads");
+    assert!(matches!(&refused, LoadError::Layout { .. }) && refused.code_has_run(), "{refused}");
+    let text = refused.to_string();
+    assert!(text.lines().count() <= 5 && text.contains("Frozen10.view.cycle"), "{text}");
 
     // A struct that is changed without its frozen copy does not compile, and the compiler names the field.
     for (name, change, words) in [

@@ -89,6 +89,15 @@ impl LibraryFile {
         })
     }
 
+    /// Compares the type layout that a law in Rust exports with this host's; see [`super::layout_check`].
+    ///
+    /// # Errors
+    /// The layouts differ.
+    #[cfg(feature = "layout-check")]
+    pub fn check_layout(&self) -> Result<(), super::layout_check::LayoutMismatch> {
+        super::layout_check::check_library(&self.library)
+    }
+
     /// Address of an exported symbol, valid as long as this value lives; none if there is no such symbol.
     pub fn address(&self, symbol: &[u8]) -> Option<*const std::ffi::c_void> {
         // SAFETY: the symbol is taken as an address only; whoever follows it must know what is there.

@@ -11,7 +11,7 @@ use abi_stable::abi_stability::abi_checking::{
 };
 use abi_stable::library::AbiHeader;
 use abi_stable::type_layout::{TLFieldOrFunction, TLFunction, TypeLayout};
-use libloading::Library;
+use libloading::os::unix::Library;
 use wearlaw_plugin_api::abi::LAYOUT_SYMBOL;
 use wearlaw_plugin_api::layout::{LAYOUT, LayoutExport};
 

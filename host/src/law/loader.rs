@@ -37,6 +37,16 @@ pub enum LoadError {
     /// The dynamic linker refused it; none of its code has run.
     #[error(transparent)]
     Linker(#[from] LinkerRefusal),
+    /// The law was built with other structs than this host's; none of its functions has been called.
+    #[cfg(feature = "layout-check")]
+    #[error("`{library}` was not built for this host: {mismatch}")]
+    Layout {
+        /// The library.
+        library: String,
+        /// What differs.
+        #[source]
+        mismatch: super::layout_check::LayoutMismatch,
+    },
     /// The entry answered an error.
     #[error(
         "the entry of `{library}` answered {status} for law {index}, expected {} or {}",
@@ -134,6 +144,9 @@ impl LoadError {
             Self::File(_) | Self::Pin(_) | Self::Linker(_) => false,
             // A name or an option that does not fit is the scene's mistake, not the law's.
             Self::NoSuchLaw { .. } | Self::Ambiguous { .. } | Self::OptionsNul { .. } => false,
+            // Its constructors have run, when it was opened.
+            #[cfg(feature = "layout-check")]
+            Self::Layout { .. } => true,
             Self::EntryStatus { .. }
             | Self::NoLaws { .. }
             | Self::TooManyLaws { .. }
@@ -179,6 +192,8 @@ impl Plugin {
             unsafe { LibraryFile::open(path) }
         });
         let file = opened.map_err(|error| LinkerRefusal::from_error(&facts, &error))?;
+        #[cfg(feature = "layout-check")]
+        file.check_layout().map_err(|mismatch| LoadError::Layout { library, mismatch })?;
         let mut plugin = Self::from_entry(Arc::new(file))?;
         warnings.append(&mut plugin.warnings);
         Ok(Self {

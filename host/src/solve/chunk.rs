@@ -165,7 +165,7 @@ fn located(mut error: crate::law::EvaluateError, first: usize, site: &Site<'_>) 
         let id = site.id(first + at.point);
         at.point = usize::try_from(id).unwrap_or(first + at.point);
     }
-    PointError::Law(error)
+    error.into()
 }
 
 /// Goes through runs of adjacent points that are all in contact, or all not; all at once for laws that want both.

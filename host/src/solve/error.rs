@@ -58,7 +58,7 @@ pub enum SolveError {
 pub enum PointError {
     /// The law or its worker failed.
     #[error(transparent)]
-    Law(#[from] EvaluateError),
+    Law(Box<EvaluateError>),
     /// The inputs could not be laid out: a fault of the program.
     #[error(transparent)]
     Batch(#[from] BatchError),
@@ -75,4 +75,10 @@ pub enum PointError {
         /// Whether the law gave the direction, and not the scene.
         by_law: bool,
     },
+}
+
+impl From<EvaluateError> for PointError {
+    fn from(error: EvaluateError) -> PointError {
+        PointError::Law(Box::new(error))
+    }
 }
