@@ -248,6 +248,81 @@ fn run_lists_the_exact_answers_and_points_at_mistakes_of_a_scene() {
     assert_eq!(std::fs::read_dir(here.path()).unwrap().count(), 1, "no run, no results");
 }
 
+const SCENE: &str = "title = \"Three seconds\"\n[law]\nuse = \"archard\"\nconstants = { K = 1e-4, H = 1e10 }\n\
+    [contact]\nmodel = \"prescribed\"\nhistory = \"history.csv\"\n";
+const HISTORY: &str = "time,point,pressure,velocity\n0,0,1e8,0.1\n3,0,2e8,0.1\n";
+
+#[test]
+fn plan_lists_what_is_computed_and_what_is_left_out() {
+    let here = folder();
+    write(here.path(), "scene.toml", SCENE);
+    write(here.path(), "history.csv", HISTORY);
+    let plain = run(here.path(), &["plan", "scene.toml"]);
+    assert_eq!((plain.code, plain.stderr.as_str()), (0, ""));
+    for words in ["Three seconds", "Computed", "law `archard`", "Left out", "temperatures", "Memory", "together"] {
+        assert!(plain.stdout.contains(words), "{words} in {}", plain.stdout);
+    }
+    let document = json(&run(here.path(), &["plan", "scene.toml", "--json"]).stdout);
+    assert_eq!(document["points"], 1);
+    let skipped = document["skipped"].as_array().unwrap();
+    assert!(skipped.iter().any(|one| one["what"] == "temperatures" && one["why"].is_string()));
+    let lines = document["memory"].as_array().unwrap();
+    let sum: u64 = lines.iter().map(|line| line["bytes"].as_u64().unwrap()).sum();
+    assert!(sum > 0 && document["memory_bytes"] == sum);
+    assert_eq!(std::fs::read_dir(here.path()).unwrap().count(), 2, "a plan writes nothing");
+}
+
+#[test]
+fn plan_says_which_key_is_wrong_before_anything_runs() {
+    let here = folder();
+    write(here.path(), "scene.toml", SCENE);
+    let message = fails(here.path(), &["plan", "scene.toml"], 2, "input");
+    assert!(message.contains("history.csv"), "{message}");
+    write(here.path(), "history.csv", HISTORY);
+    let set = ["plan", "scene.toml", "--set", "law.constants.H=0"];
+    let message = fails(here.path(), &set, 2, "input");
+    assert!(message.contains("`H`") && message.contains("(0, inf)"), "{message}");
+    let document = json(&run(here.path(), &["plan", "scene.toml", "--set", "law.sha256=\"00\"", "--json"]).stdout);
+    assert_eq!(document["error"]["key"], "law.sha256");
+    write(here.path(), "deck.inp", "TB,WEAR,7,,,ARCD\nTBDATA,1,1e-4,1e1x\n");
+    let words = ["plan", "scene.toml", "--set", "law.apdl=\"deck.inp\""];
+    let message = fails(here.path(), &words, 2, "input");
+    assert!(message.contains("1e1x"), "{message}");
+    let document = json(&run(here.path(), &[&words[..], &["--json"]].concat()).stdout);
+    assert_eq!((&document["error"]["line"], &document["error"]["key"]), (&2.into(), &"law.apdl".into()));
+    assert!(run(here.path(), &words).stderr.contains("deck.inp:2:15"));
+}
+
+#[test]
+fn a_law_is_taken_from_a_source_a_library_or_another_process() {
+    let here = folder();
+    write(here.path(), "scene.toml", &SCENE.replace("K = 1e-4, H = 1e10", "k = 1e-14"));
+    write(here.path(), "history.csv", HISTORY);
+    write(here.path(), "half.c", LAW);
+    let built = run(here.path(), &["plan", "scene.toml", "--law", "half.c"]);
+    assert!(
+        built.code == 0 && built.stdout.contains("law `half`") && built.stdout.contains("half.c"),
+        "{}",
+        built.stderr
+    );
+    let names = || std::fs::read_dir(here.path()).unwrap().count();
+    assert_eq!(names(), 3, "a law that is built on the way leaves nothing behind");
+    assert_eq!(run(here.path(), &["build", "half.c", "-q"]).code, 0);
+    for isolate in [&[][..], &["--isolate"]] {
+        let words = [&["plan", "scene.toml", "--law", "libhalf.so"], isolate].concat();
+        let plain = run(here.path(), &words);
+        assert!(plain.code == 0 && plain.stdout.contains("law `half`"), "{isolate:?}: {}", plain.stderr);
+        let pin = format!("law.sha256=\"{}\"", "0".repeat(64));
+        let message = fails(here.path(), &[&words[..], &["--set", &pin]].concat(), 2, "input");
+        assert!(message.contains("SHA-256"), "{message}");
+    }
+    write(here.path(), "refusing.c", REFUSING);
+    assert_eq!(run(here.path(), &["build", "refusing.c"]).code, 3);
+    for isolate in [&[][..], &["--isolate"]] {
+        fails(here.path(), &[&["plan", "scene.toml", "--law", "librefusing.so"], isolate].concat(), 3, "law");
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn an_output_that_cannot_be_written_ends_with_5_and_a_closed_pipe_with_0() {

@@ -62,7 +62,9 @@ fn gives_the_expected_values(folder: &Path, library: &str) {
 fn works_as_printed(language: &str) {
     let here = tempfile::tempdir().unwrap();
     let name = format!("my-{language}-law");
-    typed(here.path(), &name, language);
+    let run = typed(here.path(), &name, language);
+    let planned = shell(here.path(), &run.replace(" run ", " plan "));
+    assert!(planned.0 && planned.1.contains(&format!("law `{name}`")), "{}", planned.1);
     gives_the_expected_values(&here.path().join(&name), &format!("lib{name}.so"));
     let left: Vec<_> = std::fs::read_dir(here.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     let expected = |file: &std::ffi::OsString| *file == *name || file == ".cargo-home";

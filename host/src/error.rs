@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::apdl::{DeckError, LowerError};
+use crate::apdl::{DeckError, Diagnostic, LowerError};
 use crate::contact::prescribed::HistoryError;
 use crate::exit_code::ExitCode;
 use crate::law::build::BuildError;
@@ -12,7 +12,7 @@ use crate::law::lookup::LookupError;
 use crate::law::{EvaluateError, LoadError};
 use crate::output::OutputError;
 use crate::plan::{PlanError, PlanProblem};
-use crate::scene::{Located, SceneError};
+use crate::scene::{Located, Location, SceneError};
 use crate::solve::SolveError;
 use crate::templates::TemplateError;
 
@@ -154,6 +154,7 @@ impl Error {
         match self {
             Self::Scene(error) => error.render(color),
             Self::Plan(error) => match &*error.problem {
+                // The deck's own line says more than the scene's that names the deck.
                 PlanProblem::Deck(deck @ DeckError::Command(_)) => deck.render(),
                 _ => error.render(color),
             },
@@ -166,39 +167,59 @@ impl Error {
     /// The error as JSON: `kind` (the exit code's word), `message`, and the place where it has one.
     pub fn to_json(&self) -> serde_json::Value {
         let mut json = serde_json::json!({ "kind": self.exit_code().word(), "message": self.to_string() });
-        let mut place = |file: &str, line: usize, column: usize| {
-            json["file"] = file.into();
-            json["line"] = line.into();
-            json["column"] = column.into();
-        };
-        let location = match self {
-            Self::Scene(error) => error.location.as_ref(),
-            Self::Plan(error) => error.location.as_ref(),
-            Self::Lookup(error) => error.location.as_ref(),
-            Self::Deck(DeckError::Command(found)) => {
-                place(&found.source, found.line, found.column);
-                None
+        let deck = self.deck();
+        if let Some(found) = deck {
+            json["message"] = found.problem.to_string().into();
+            set_place(&mut json, &found.source, found.line, found.column);
+        }
+        if let Some((message, location)) = self.located() {
+            if deck.is_none() {
+                json["message"] = message.into();
             }
-            _ => None,
-        };
-        if let Some(location) = location {
-            if !location.in_override() {
-                place(location.file(), location.line(), location.column());
-            }
-            if !location.key().is_empty() {
-                json["key"] = location.key().into();
+            if let Some(location) = location {
+                if !location.in_override() && deck.is_none() {
+                    set_place(&mut json, location.file(), location.line(), location.column());
+                }
+                if !location.key().is_empty() {
+                    json["key"] = location.key().into();
+                }
             }
         }
-        match self {
-            Self::Scene(error) => json["message"] = error.problem.to_string().into(),
-            Self::Plan(error) => json["message"] = error.problem.to_string().into(),
-            Self::Lookup(error) => json["message"] = error.problem.to_string().into(),
-            Self::Deck(DeckError::Command(found)) => json["message"] = found.problem.to_string().into(),
-            Self::Build(error) if !error.messages().is_empty() => json["compiler"] = error.messages().into(),
-            _ => {}
+        if let Self::Build(error) = self
+            && !error.messages().is_empty()
+        {
+            json["compiler"] = error.messages().into();
         }
         json
     }
+
+    /// The problem without its place, and its place in the scene.
+    fn located(&self) -> Option<(String, Option<&Location>)> {
+        match self {
+            Self::Scene(error) => Some((error.problem.to_string(), error.location.as_ref())),
+            Self::Lookup(error) => Some((error.problem.to_string(), error.location.as_ref())),
+            Self::Plan(error) => Some((error.problem.to_string(), error.location.as_ref())),
+            _ => None,
+        }
+    }
+
+    /// What is wrong with a command file, read for itself or for a scene.
+    fn deck(&self) -> Option<&Diagnostic> {
+        match self {
+            Self::Deck(DeckError::Command(found)) => Some(found),
+            Self::Plan(error) => match &*error.problem {
+                PlanProblem::Deck(DeckError::Command(found)) => Some(found),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
+
+fn set_place(json: &mut serde_json::Value, file: &str, line: usize, column: usize) {
+    json["file"] = file.into();
+    json["line"] = line.into();
+    json["column"] = column.into();
 }
 
 /// A text from elsewhere with its control characters made visible, so that no file steers the terminal.

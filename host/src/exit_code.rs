@@ -129,7 +129,6 @@ impl ExitCode {
     }
 }
 
-/// A name that leads nowhere was typed wrongly; anything else is the machine's.
 fn of_history(error: &HistoryError) -> ExitCode {
     if error.is_io() { ExitCode::ReadWriteFailed } else { ExitCode::InputWrong }
 }
@@ -165,6 +164,7 @@ fn of_solving(error: &SolveError) -> ExitCode {
     }
 }
 
+/// A name that leads nowhere was typed wrongly; anything else is the machine's.
 fn of_reading(kind: ErrorKind) -> ExitCode {
     match kind {
         ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => ExitCode::InputWrong,

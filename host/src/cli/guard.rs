@@ -10,7 +10,9 @@ static FIRST: Mutex<Option<String>> = Mutex::new(None);
 /// Runs `work`; a panic in it becomes [`Error::Fault`] with its place, and prints nothing itself.
 pub(super) fn guarded<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     std::panic::set_hook(Box::new(|panic| {
-        let words = panic.payload_as_str().unwrap_or("no words");
+        let payload = panic.payload();
+        let text = payload.downcast_ref::<&str>().copied();
+        let words = text.or(payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no words");
         let what = match panic.location() {
             Some(place) => format!("{words}, at {}:{}", place.file(), place.line()),
             None => words.to_owned(),
@@ -39,6 +41,9 @@ mod tests {
         assert_eq!(error.exit_code().number(), 70);
         let text = error.to_string();
         assert!(text.contains("index 7 of 3, at ") && text.contains("guard.rs:"), "{text}");
+        let count = 7;
+        let result: Result<(), Error> = guarded(|| panic!("{count} words"));
+        assert!(result.unwrap_err().to_string().contains("7 words, at "));
         assert_eq!(guarded(|| Ok(3)).unwrap(), 3);
     }
 }

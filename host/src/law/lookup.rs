@@ -98,7 +98,8 @@ fn find_near(name: &str, base: &Path, folders: &[PathBuf]) -> Result<LawSource, 
         return found.ok_or_else(|| LookupError::NotEmbedded { name: wanted.to_owned(), known: known() });
     }
     if is_path(name) {
-        let path = base.join(name);
+        // `scenes/law.so` reads better than `scenes/./law.so`.
+        let path = base.join(name.strip_prefix("./").unwrap_or(name));
         let source = path.is_dir() || is_manifest(&path) || Language::of(&path).is_some();
         return Ok(if source { LawSource::Source(path) } else { LawSource::Library(path) });
     }
@@ -168,7 +169,7 @@ mod tests {
     fn a_slash_or_an_ending_makes_a_path() {
         let library = |path: &str| Ok(LawSource::Library(path.into()));
         let source = |path: &str| Ok(LawSource::Source(path.into()));
-        assert_eq!(found("./mine.so"), library("scenes/./mine.so"));
+        assert_eq!(found("./mine.so"), library("scenes/mine.so"));
         assert_eq!(found("mine.so"), library("scenes/mine.so"));
         assert_eq!(found("libmine.so.1"), library("scenes/libmine.so.1"));
         assert_eq!(found("/tmp/no-such/law"), library("/tmp/no-such/law"));
@@ -195,7 +196,7 @@ mod tests {
     #[test]
     fn a_law_of_several_stands_behind_a_hash() {
         let found = find("./two.so#second", Path::new("")).unwrap();
-        assert_eq!((found.source, found.law.as_deref()), (LawSource::Library("./two.so".into()), Some("second")));
+        assert_eq!((found.source, found.law.as_deref()), (LawSource::Library("two.so".into()), Some("second")));
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a#b.so"), "").unwrap();
         assert_eq!(find("a#b.so", folder.path()).unwrap().law, None);

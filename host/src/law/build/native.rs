@@ -124,8 +124,7 @@ impl Toolchain<'_> {
                 .clone()
                 .or_else(|| from_environment("FC"));
             let mut command = command_of(&named.unwrap_or_else(|| "gfortran".into()));
-            // The helper fixes the arguments of `point`, whether a law needs all of them or not.
-            command.args(["-O3", "-fPIC", "-Wall", "-Wno-unused-dummy-argument"]);
+            command.args(["-O3", "-fPIC", "-Wall"]);
             if let Some(flags) = from_environment("FFLAGS") {
                 command.args(flags.to_string_lossy().split_whitespace());
             }
