@@ -98,9 +98,11 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
         End::Done | End::Stopped(_) if missed.is_some() => (ExitCode::FallsShort, None),
         End::Done | End::Stopped(_) => (ExitCode::Done, None),
     };
-    if console.json && failure.is_none() {
+    if failure.is_some() {
+        // The error says all that there is to say; standard output stays empty, or its document's.
+    } else if console.json {
         console.document(&report.document())?;
-    } else if !console.json && !console.quiet {
+    } else if !console.quiet {
         let summary = summary(title, &plan, &report, error.as_ref(), record.estimated_error, &settings.out);
         console.result(&summary.text(console))?;
     }

@@ -67,14 +67,16 @@ impl Summary {
             line("ended early", reason);
         }
         let built = self.build_time_s.map_or_else(String::new, |s| format!(", and {} compiling the law", elapsed(s)));
-        let run =
-            format!("{}{built} ({} steps, {} points)", elapsed(self.run_time_s), self.steps, self.points_evaluated);
+        let run = format!("{}{built}", elapsed(self.run_time_s));
         match &self.error {
             Some((reference, norm, value)) => {
+                // The line above has said that it is about the wear depth.
+                let norm = norm.trim_end_matches(" error of the wear depth");
                 line("error, run time", &format!("{} ({norm}, {reference}) in {run}", significant(*value, 3)));
             }
             None => line("run time", &run),
         }
+        line("work", &format!("{} steps, {} points evaluated", self.steps, self.points_evaluated));
         line("results", &self.out.display().to_string());
         text
     }

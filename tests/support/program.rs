@@ -1,0 +1,89 @@
+//! The program as a test sees it: commands, how they end, and a law in C to try them on.
+#![allow(dead_code)] // reason: each test file uses a part of it.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// The program in a folder, with an environment that no user's settings reach.
+pub fn wearlaw(folder: &Path, words: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wearlaw"));
+    command.current_dir(folder).args(words).stdin(std::process::Stdio::null());
+    for name in ["CC", "CXX", "FC", "CFLAGS", "CXXFLAGS", "FFLAGS", "NO_COLOR", "RUST_BACKTRACE"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// How a command ended.
+pub struct Ended {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl From<Output> for Ended {
+    fn from(output: Output) -> Self {
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("output is UTF-8");
+        let code = output.status.code().expect("no signal ended the program");
+        Self { code, stdout: text(output.stdout), stderr: text(output.stderr) }
+    }
+}
+
+/// Runs a command to its end.
+pub fn run(folder: &Path, words: &[&str]) -> Ended {
+    wearlaw(folder, words).output().expect("the program starts").into()
+}
+
+/// Runs a command that has to fail: nothing on standard output, and the same error as one JSON document with `--json`.
+pub fn fails(folder: &Path, words: &[&str], code: i32, kind: &str) -> String {
+    let ended = run(folder, words);
+    assert_eq!(ended.code, code, "{words:?}: {}", ended.stderr);
+    assert_eq!(ended.stdout, "", "{words:?}");
+    assert!(ended.stderr.contains("error: "), "{words:?}: {}", ended.stderr);
+    assert!(!ended.stderr.contains('\u{1b}'), "colors only on a terminal: {words:?}");
+    assert!(!ended.stderr.contains("panicked"), "{words:?}: {}", ended.stderr);
+    let with_json = run(folder, &[words, &["--json"]].concat());
+    assert_eq!(with_json.code, code, "{words:?}");
+    let document = json(&with_json.stdout);
+    assert_eq!(document["exit_code"], code, "{words:?}");
+    assert_eq!(document["error"]["kind"], kind, "{words:?}");
+    let message = document["error"]["message"].as_str().expect("a message").to_owned();
+    assert!(!message.is_empty() && !with_json.stderr.contains("error: "), "{words:?}: {}", with_json.stderr);
+    message
+}
+
+/// The one document of a text that holds nothing else.
+pub fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error} in {text:?}"))
+}
+
+/// Writes a file into a folder.
+pub fn write(folder: &Path, name: &str, text: &str) {
+    std::fs::write(folder.join(name), text).expect("the folder can be written");
+}
+
+/// An empty folder that goes with the value.
+pub fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+/// A law in C: half of Archard's, with one constant.
+pub const LAW: &str = r#"
+#define LAW_NAME "half"
+#define LAW_VERSION "2.1"
+#define LAW_SUMMARY "half a law"
+#define LAW_READS(F) F(pressure) F(slip)
+#define LAW_CONSTANTS(C) C(k, WL_PER_PASCAL, WL_FROM(0), WL_REQUIRED, "specific wear rate")
+#include "wearlaw_point.h"
+WL_POINT {
+    out->increment = 0.5 * c->k * in->pressure * in->slip;
+    return WL_OK;
+}
+"#;
+
+/// A law whose entry gives up.
+pub const REFUSING: &str = "#include \"wearlaw.h\"\n\
+    WL_EXPORT int32_t wearlaw_entry_1(int32_t index, const wl_host *host, wl_law *law) {\n\
+    (void)index; (void)host; (void)law; return WL_FAILED; }\n";
