@@ -1,0 +1,93 @@
+//! README and the pages beside it: their commands run, their links lead somewhere, their tables are complete.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn readme() -> String {
+    std::fs::read_to_string(root().join("README.md")).expect("README.md is there")
+}
+
+/// The program, in a folder of its own, with the arguments of a `wearlaw` line of README.
+fn run(line: &str, folder: &Path) -> (bool, String) {
+    let words: Vec<String> = line.split_whitespace().skip(1).map(str::to_owned).collect();
+    let words = words.iter().map(|word| match root().join(word).exists() {
+        true => root().join(word).display().to_string(),
+        false => word.clone(),
+    });
+    let output = Command::new(env!("CARGO_BIN_EXE_wearlaw"))
+        .args(words)
+        .current_dir(folder)
+        .output()
+        .expect("the program starts");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    (output.status.success(), text)
+}
+
+#[test]
+fn the_first_command_gives_the_printed_depth() {
+    let text = readme();
+    assert!(text.contains("cargo run --release -- run host/scenes/pin_on_disc.toml"));
+    assert!(text.contains("7.3227993251e-6 m"));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (done, said) = run("wearlaw run host/scenes/pin_on_disc.toml", folder.path());
+    assert!(done && said.contains("7.3227993251e-6 m at time 1 s, slid 0.2 m"), "{said}");
+}
+
+#[test]
+fn every_command_line_of_the_readme_runs() {
+    let text = readme();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut seen = 0;
+    for line in text.lines().flat_map(|line| line.split('`')).filter(|part| part.starts_with("wearlaw ")) {
+        // Lines with placeholders are forms, not commands.
+        if line.chars().any(|c| c.is_ascii_uppercase()) || line == "wearlaw run" {
+            continue;
+        }
+        let (done, said) = run(line, folder.path());
+        assert!(done, "`{line}`: {said}");
+        seen += 1;
+    }
+    assert!(seen >= 2, "README shows {seen} commands that can be typed");
+}
+
+#[test]
+fn links_lead_to_files() {
+    for page in ["README.md", "CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "include/README.md"] {
+        let path = root().join(page);
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{page}: {error}"));
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if link.starts_with("http") || link.starts_with('#') {
+                continue;
+            }
+            let target = path.parent().expect("pages lie in folders").join(link.split('#').next().unwrap_or(link));
+            assert!(target.exists(), "{page} links to {link}, which is not there");
+        }
+    }
+}
+
+#[test]
+fn every_scene_and_every_law_is_listed() {
+    let text = readme();
+    let names = |folder: &str| {
+        let entries = std::fs::read_dir(root().join(folder)).expect("the folder is there");
+        entries.map(|entry| entry.expect("it can be read").file_name().to_string_lossy().into_owned()).collect::<Vec<_>>()
+    };
+    for scene in names("host/scenes").iter().filter(|name| name.ends_with(".toml")) {
+        assert!(text.contains(&format!("`{scene}`")), "README does not list {scene}");
+    }
+    for law in names("plugins") {
+        assert!(text.contains(&format!("(plugins/{law}/README.md)")), "README does not list {law}");
+    }
+}
+
+#[test]
+fn exit_codes_are_those_of_the_program() {
+    let text = readme();
+    for code in wearlaw::ExitCode::ALL {
+        assert!(text.contains(&format!("| {} | ", code.number())), "README does not list exit code {}", code.number());
+    }
+}
