@@ -524,7 +524,7 @@ typedef struct wl_view {
    */
   int64_t constant_count;
   /*
-   Constants, one column each [constant_count].
+   Constants, one column each `[constant_count]`.
    */
   const struct wl_column *constants;
   /*
@@ -532,7 +532,7 @@ typedef struct wl_view {
    */
   int64_t input_count;
   /*
-   Further inputs, one column each [input_count].
+   Further inputs, one column each `[input_count]`.
    */
   const struct wl_column *inputs;
   /*
@@ -540,87 +540,87 @@ typedef struct wl_view {
    */
   int64_t state_count;
   /*
-   State variables at the start of the substep [points][state_count], the variables of a point adjacent.
+   State variables at the start of the substep `[points][state_count]`, the variables of a point adjacent.
    */
   struct wl_column state;
   /*
-   Contact pressure [points], positive in compression; pressure.
+   Contact pressure `[points]`, positive in compression; pressure.
    */
   struct wl_column pressure;
   /*
-   Slip increment [points]: path length over the substep; length.
+   Slip increment `[points]`: path length over the substep; length.
    */
   struct wl_column slip;
   /*
-   Sliding velocity [points]; length per time.
+   Sliding velocity `[points]`; length per time.
    */
   struct wl_column velocity;
   /*
-   Net slip displacement [points][3]; length.
+   Net slip displacement `[points][3]`; length.
    */
   struct wl_column slip_vector;
   /*
-   Outward unit normal of the worn body [points][3].
+   Outward unit normal of the worn body `[points][3]`.
    */
   struct wl_column normal;
   /*
-   Position [points][3]; length.
+   Position `[points][3]`; length.
    */
   struct wl_column coordinates;
   /*
-   First unit tangent [points][3].
+   First unit tangent `[points][3]`.
    */
   struct wl_column tangent;
   /*
-   Temperature of the worn surface [points].
+   Temperature of the worn surface `[points]`.
    */
   struct wl_column temperature;
   /*
-   Temperature of the counter surface [points].
+   Temperature of the counter surface `[points]`.
    */
   struct wl_column counter_temperature;
   /*
-   Friction stress on the worn body [points][3]; pressure.
+   Friction stress on the worn body `[points][3]`; pressure.
    */
   struct wl_column friction_stress;
   /*
-   Friction coefficient [points].
+   Friction coefficient `[points]`.
    */
   struct wl_column friction_coefficient;
   /*
-   Friction work per area over the substep [points]; pressure times length.
+   Friction work per area over the substep `[points]`; pressure times length.
    */
   struct wl_column friction_work;
   /*
-   Wear depth at the start of the substep [points]; length.
+   Wear depth at the start of the substep `[points]`; length.
    */
   struct wl_column accumulated_wear;
   /*
-   Sliding distance at the start of the substep [points]; length.
+   Sliding distance at the start of the substep `[points]`; length.
    */
   struct wl_column accumulated_slip;
   /*
-   Normal traction from nodal stresses [points]; pressure.
+   Normal traction from nodal stresses `[points]`; pressure.
    */
   struct wl_column nodal_traction;
   /*
-   Gap [points], negative is penetration; length.
+   Gap `[points]`, negative is penetration; length.
    */
   struct wl_column gap;
   /*
-   Area of the point [points]; length squared (length in 2-D).
+   Area of the point `[points]`; length squared (length in 2-D).
    */
   struct wl_column area;
   /*
-   Contact state [points]: `WL_OPEN`, `WL_STICK` or `WL_SLIDING`.
+   Contact state `[points]`: `WL_OPEN`, `WL_STICK` or `WL_SLIDING`.
    */
   struct wl_index_column contact_state;
   /*
-   Number of the point in the host's numbering [points].
+   Number of the point in the host's numbering `[points]`.
    */
   struct wl_index_column point_id;
   /*
-   Number of the contact element [points].
+   Number of the contact element `[points]`.
    */
   struct wl_index_column element_id;
 } wl_view;
@@ -636,19 +636,19 @@ typedef struct wl_output {
    */
   int64_t struct_size;
   /*
-   Wear increment over the substep [points]; length. Never NULL.
+   Wear increment over the substep `[points]`; length. Never NULL.
    */
   double *increment;
   /*
-   Wear direction [points][3], unit length; or NULL.
+   Wear direction `[points][3]`, unit length; or NULL.
    */
   double *direction;
   /*
-   State variables at the end of the substep [points][state_count]; or NULL.
+   State variables at the end of the substep `[points][state_count]`; or NULL.
    */
   double *state;
   /*
-   Status of every point [points]; or NULL.
+   Status of every point `[points]`; or NULL.
    */
   int32_t *status;
   /*
@@ -664,7 +664,7 @@ typedef struct wl_output {
    */
   int64_t missing;
   /*
-   Buffer for a text on what went wrong [text_size], NUL-terminated by the law; may be NULL.
+   Buffer for a text on what went wrong `[text_size]`, NUL-terminated by the law; may be NULL.
    */
   char *text;
   /*
@@ -672,7 +672,7 @@ typedef struct wl_output {
    */
   int64_t text_size;
   /*
-   Derivative of the increment with respect to the pressure [points]; length per pressure; or NULL.
+   Derivative of the increment with respect to the pressure `[points]`; length per pressure; or NULL.
    */
   double *d_pressure;
 } wl_output;

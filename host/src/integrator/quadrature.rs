@@ -20,7 +20,7 @@ pub trait Rate {
     /// Number of points of the chunk.
     fn points(&self) -> usize;
 
-    /// Writes into `out` [points] the increments that the inputs at the fraction `at` of the piece would give if they
+    /// Writes into `out` `[points]` the increments that the inputs at the fraction `at` of the piece would give if they
     /// held for `dt`.
     ///
     /// # Errors
@@ -74,7 +74,7 @@ impl Quadrature {
         nodes as u64
     }
 
-    /// Adds the wear of one piece to `wear` [points] and says what it took.
+    /// Adds the wear of one piece to `wear` `[points]` and says what it took.
     ///
     /// # Errors
     /// What the evaluation fails with; a tolerance that cannot be met; a law that wants too short a substep.

@@ -15,9 +15,9 @@ const ROUNDING: f64 = 1e-14;
 /// What a law remembers over one chunk of points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Memory {
-    /// Wear depth [points]; length.
+    /// Wear depth `[points]`; length.
     pub wear: Vec<f64>,
-    /// State variables [points * state variables].
+    /// State variables `[points * state variables]`.
     pub state: Vec<f64>,
 }
 
@@ -27,7 +27,7 @@ pub trait Substep {
     type Error: std::error::Error + 'static;
 
     /// Evaluates the part from the fraction `from` to the fraction `to` of the piece, starting with memory `start`;
-    /// writes the increments [points] and the state at the end.
+    /// writes the increments `[points]` and the state at the end.
     ///
     /// # Errors
     /// Whatever the evaluation fails with.

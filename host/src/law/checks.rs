@@ -31,7 +31,7 @@ fn exact(values: &[f64]) -> Sweep {
         },
         |found, value| Sweep {
             finite: found.finite & value.is_finite(),
-            non_negative: found.non_negative & !(*value < 0.0),
+            non_negative: found.non_negative & (*value >= 0.0 || value.is_nan()),
         },
     )
 }

@@ -289,15 +289,15 @@ impl MemoryInputs<'_> {
 
 /// The outputs of one call.
 pub struct MemoryOutputs<'a> {
-    /// Wear increment [points].
+    /// Wear increment `[points]`.
     pub increment: &'a mut [f64],
-    /// Wear direction [points][3], if it is wanted.
+    /// Wear direction `[points][3]`, if it is wanted.
     pub direction: Option<&'a mut [f64]>,
-    /// State variables at the end [points][variables], if there are any.
+    /// State variables at the end `[points][variables]`, if there are any.
     pub state: Option<&'a mut [f64]>,
     /// Status of every point, if it is wanted.
     pub status: Option<&'a mut [i32]>,
-    /// Derivative with respect to the pressure [points], if it is wanted.
+    /// Derivative with respect to the pressure `[points]`, if it is wanted.
     pub d_pressure: Option<&'a mut [f64]>,
     /// First bad point, or -1.
     pub first_bad: i64,

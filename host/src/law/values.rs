@@ -12,7 +12,7 @@ pub enum Values<'a> {
     Uniform(f64),
     /// One vector for all points; of a vector field only.
     UniformVector([f64; 3]),
-    /// Adjacent values: [points], of a vector [points][3], of the state [points][variables].
+    /// Adjacent values: `[points]`, of a vector `[points][3]`, of the state `[points][variables]`.
     PerPoint(&'a [f64]),
     /// Values in another array: those of point i begin at `data[i * step]`.
     Strided {

@@ -9,7 +9,7 @@ use crate::law::Values;
 pub struct ConstantTable {
     times: Vec<f64>,
     temperatures: Vec<f64>,
-    /// [constant][time][temperature]
+    /// `[constant][time][temperature]`
     values: Vec<f64>,
     count: usize,
 }

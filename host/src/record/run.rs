@@ -58,9 +58,9 @@ pub struct MemoryLine {
 pub struct Record<E> {
     /// Quantities over time; the first row is the start.
     pub history: History,
-    /// Wear depth [points]; length.
+    /// Wear depth `[points]`; length.
     pub wear: Vec<f64>,
-    /// State variables [points * variables].
+    /// State variables `[points * variables]`.
     pub state: Vec<f64>,
     /// Estimated relative L2 error of the wear profile by the integrator; `None`: not estimated.
     pub estimated_error: Option<f64>,

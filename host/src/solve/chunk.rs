@@ -86,7 +86,7 @@ struct Caller<'c, 's> {
     evaluator: &'c dyn Evaluator,
     range: Range<usize>,
     rooms: &'c mut Rooms,
-    /// Wear directions of the last call [points][3]; empty where nobody wants them.
+    /// Wear directions of the last call `[points][3]`; empty where nobody wants them.
     direction: &'c mut Vec<f64>,
     keep_direction: &'c mut [f64],
     distance: &'c [f64],

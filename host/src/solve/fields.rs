@@ -8,7 +8,7 @@ use crate::solve::inputs::{Drive, Site};
 use crate::solve::progress::Arrays;
 use crate::solve::source::value;
 
-/// Values of the driving pressure at a fraction of a piece [points].
+/// Values of the driving pressure at a fraction of a piece `[points]`.
 pub(super) fn pressure(site: &Site<'_>, drive: &Drive<'_>, part: f64, points: usize) -> Vec<f64> {
     let (mut room, mut parts) = (Vec::new(), Default::default());
     let values = drive.driving_pressure(site.plan, part, 0..points, (&mut room, &mut parts));

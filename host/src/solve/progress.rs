@@ -11,15 +11,15 @@ use std::time::Duration;
 
 /// The arrays of a run.
 pub(super) struct Arrays {
-    /// Wear depth [points].
+    /// Wear depth `[points]`.
     pub(super) wear: Vec<f64>,
-    /// State variables [points][variables].
+    /// State variables `[points][variables]`.
     pub(super) state: Vec<f64>,
-    /// Sliding distances [points]; empty where all points slide alike.
+    /// Sliding distances `[points]`; empty where all points slide alike.
     pub(super) distance: Vec<f64>,
     /// The sliding distance where all points slide alike.
     pub(super) uniform_distance: f64,
-    /// Wear directions [points][3]; empty where nobody wants them.
+    /// Wear directions `[points][3]`; empty where nobody wants them.
     pub(super) direction: Vec<f64>,
     /// Wear depth after the piece, before averaging; empty without averaging.
     averaged: Vec<f64>,

@@ -72,55 +72,55 @@ pub struct View {
     pub unit_kelvin: f64,
     /// Number of columns in `constants`: what the law declared.
     pub constant_count: i64,
-    /// Constants, one column each [constant_count].
+    /// Constants, one column each `[constant_count]`.
     pub constants: *const Column,
     /// Number of columns in `inputs`: what the law declared.
     pub input_count: i64,
-    /// Further inputs, one column each [input_count].
+    /// Further inputs, one column each `[input_count]`.
     pub inputs: *const Column,
     /// Number of state variables at a point: what the law declared.
     pub state_count: i64,
-    /// State variables at the start of the substep [points][state_count], the variables of a point adjacent.
+    /// State variables at the start of the substep `[points][state_count]`, the variables of a point adjacent.
     pub state: Column,
-    /// Contact pressure [points], positive in compression; pressure.
+    /// Contact pressure `[points]`, positive in compression; pressure.
     pub pressure: Column,
-    /// Slip increment [points]: path length over the substep; length.
+    /// Slip increment `[points]`: path length over the substep; length.
     pub slip: Column,
-    /// Sliding velocity [points]; length per time.
+    /// Sliding velocity `[points]`; length per time.
     pub velocity: Column,
-    /// Net slip displacement [points][3]; length.
+    /// Net slip displacement `[points][3]`; length.
     pub slip_vector: Column,
-    /// Outward unit normal of the worn body [points][3].
+    /// Outward unit normal of the worn body `[points][3]`.
     pub normal: Column,
-    /// Position [points][3]; length.
+    /// Position `[points][3]`; length.
     pub coordinates: Column,
-    /// First unit tangent [points][3].
+    /// First unit tangent `[points][3]`.
     pub tangent: Column,
-    /// Temperature of the worn surface [points].
+    /// Temperature of the worn surface `[points]`.
     pub temperature: Column,
-    /// Temperature of the counter surface [points].
+    /// Temperature of the counter surface `[points]`.
     pub counter_temperature: Column,
-    /// Friction stress on the worn body [points][3]; pressure.
+    /// Friction stress on the worn body `[points][3]`; pressure.
     pub friction_stress: Column,
-    /// Friction coefficient [points].
+    /// Friction coefficient `[points]`.
     pub friction_coefficient: Column,
-    /// Friction work per area over the substep [points]; pressure times length.
+    /// Friction work per area over the substep `[points]`; pressure times length.
     pub friction_work: Column,
-    /// Wear depth at the start of the substep [points]; length.
+    /// Wear depth at the start of the substep `[points]`; length.
     pub accumulated_wear: Column,
-    /// Sliding distance at the start of the substep [points]; length.
+    /// Sliding distance at the start of the substep `[points]`; length.
     pub accumulated_slip: Column,
-    /// Normal traction from nodal stresses [points]; pressure.
+    /// Normal traction from nodal stresses `[points]`; pressure.
     pub nodal_traction: Column,
-    /// Gap [points], negative is penetration; length.
+    /// Gap `[points]`, negative is penetration; length.
     pub gap: Column,
-    /// Area of the point [points]; length squared (length in 2-D).
+    /// Area of the point `[points]`; length squared (length in 2-D).
     pub area: Column,
-    /// Contact state [points]: `WL_OPEN`, `WL_STICK` or `WL_SLIDING`.
+    /// Contact state `[points]`: `WL_OPEN`, `WL_STICK` or `WL_SLIDING`.
     pub contact_state: IndexColumn,
-    /// Number of the point in the host's numbering [points].
+    /// Number of the point in the host's numbering `[points]`.
     pub point_id: IndexColumn,
-    /// Number of the contact element [points].
+    /// Number of the contact element `[points]`.
     pub element_id: IndexColumn,
 }
 
@@ -132,13 +132,13 @@ pub struct View {
 pub struct Output {
     /// Bytes of this struct, set by the host.
     pub struct_size: i64,
-    /// Wear increment over the substep [points]; length. Never NULL.
+    /// Wear increment over the substep `[points]`; length. Never NULL.
     pub increment: *mut f64,
-    /// Wear direction [points][3], unit length; or NULL.
+    /// Wear direction `[points][3]`, unit length; or NULL.
     pub direction: *mut f64,
-    /// State variables at the end of the substep [points][state_count]; or NULL.
+    /// State variables at the end of the substep `[points][state_count]`; or NULL.
     pub state: *mut f64,
-    /// Status of every point [points]; or NULL.
+    /// Status of every point `[points]`; or NULL.
     pub status: *mut i32,
     /// For the law to set on a bad status: index of the first bad point in this call (preset -1).
     pub first_bad: i64,
@@ -146,10 +146,10 @@ pub struct Output {
     pub dt_factor: f64,
     /// For the law to set with `WL_MISSING_INPUT`: field bits of what is missing (preset 0).
     pub missing: i64,
-    /// Buffer for a text on what went wrong [text_size], NUL-terminated by the law; may be NULL.
+    /// Buffer for a text on what went wrong `[text_size]`, NUL-terminated by the law; may be NULL.
     pub text: *mut c_char,
     /// Bytes of `text`.
     pub text_size: i64,
-    /// Derivative of the increment with respect to the pressure [points]; length per pressure; or NULL.
+    /// Derivative of the increment with respect to the pressure `[points]`; length per pressure; or NULL.
     pub d_pressure: *mut f64,
 }

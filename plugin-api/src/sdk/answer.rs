@@ -11,15 +11,15 @@ use super::Status;
 
 /// The outputs of one call. What is `None` is not wanted.
 pub struct Answer<'a> {
-    /// Wear increment [points]; length.
+    /// Wear increment `[points]`; length.
     pub increment: &'a mut [f64],
-    /// Wear direction [points], unit vectors.
+    /// Wear direction `[points]`, unit vectors.
     pub direction: Option<&'a mut [[f64; 3]]>,
-    /// State variables at the end of the substep [points * state variables].
+    /// State variables at the end of the substep `[points * state variables]`.
     pub state: Option<&'a mut [f64]>,
-    /// Status of every point [points], as the ABI's numbers.
+    /// Status of every point `[points]`, as the ABI's numbers.
     pub status: Option<&'a mut [i32]>,
-    /// Derivative of the increment with respect to the pressure [points].
+    /// Derivative of the increment with respect to the pressure `[points]`.
     pub d_pressure: Option<&'a mut [f64]>,
     worst: Status,
     first_bad: i64,

@@ -74,7 +74,7 @@ impl<'a> BatchBuilder<'a> {
         self
     }
 
-    /// The state variables at the start of the substep [points][variables].
+    /// The state variables at the start of the substep `[points][variables]`.
     pub fn state(mut self, state: Values<'a>) -> Self {
         self.state = state;
         self

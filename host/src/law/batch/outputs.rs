@@ -3,15 +3,15 @@
 /// Where the answers of one call go; the lengths are those of the batch it is used with.
 #[derive(Debug)]
 pub struct Outputs<'a> {
-    /// Wear increment [points].
+    /// Wear increment `[points]`.
     pub increment: &'a mut [f64],
-    /// Wear direction [points][3].
+    /// Wear direction `[points][3]`.
     pub direction: Option<&'a mut [f64]>,
-    /// State variables at the end [points][variables]; needed if the law has any.
+    /// State variables at the end `[points][variables]`; needed if the law has any.
     pub state: Option<&'a mut [f64]>,
-    /// Status of every point [points].
+    /// Status of every point `[points]`.
     pub status: Option<&'a mut [i32]>,
-    /// Derivative of the increment with respect to the pressure [points].
+    /// Derivative of the increment with respect to the pressure `[points]`.
     pub d_pressure: Option<&'a mut [f64]>,
 }
 

@@ -57,7 +57,7 @@ macro_rules! refused {
             struct This;
             impl Fault for This {
                 fn table($table: &mut abi::LawTable) {
-                    $change;
+                    { $change }
                 }
             }
             assert_words(&refusal::<This>(), $words);
@@ -70,7 +70,7 @@ macro_rules! refused {
             impl Fault for This {
                 fn quantity(kind: i32, index: i64, $quantity: &mut abi::Quantity) {
                     if kind == abi::WL_KIND_CONSTANT && index == $index {
-                        $change;
+                        { $change }
                     }
                 }
             }
