@@ -58,6 +58,27 @@ fn a_c_program_evaluates_a_loaded_law() {
     assert_eq!(found, right);
 }
 
+/// The Archard law as cargo has built it, beside this test's own binary.
+fn archard() -> std::path::PathBuf {
+    let program = std::env::current_exe().expect("a test knows its own path");
+    let folder = program.parent().expect("a program lies in a folder");
+    let library = folder.join(format!("{}wearlaw_archard{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX));
+    assert!(library.exists(), "cargo builds {} with this test", library.display());
+    library
+}
+
+#[test]
+fn a_c_program_evaluates_archard_and_agrees() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let program = embed(folder.path());
+    let found = increments(&run(&program, &archard(), &["K=1e-4", "H=2e9"]));
+    for (found, p) in found.iter().zip([1e6, 2e6, 5e7]) {
+        let right = 1e-4 / 2e9 * p * 0.1 * 0.01;
+        assert!((found - right).abs() <= 4.0 * f64::EPSILON * right, "{found:e} for {right:e}");
+    }
+    assert_eq!(found.len(), 3);
+}
+
 #[test]
 fn a_c_program_is_told_what_a_law_refuses() {
     let folder = tempfile::tempdir().expect("a temporary folder");
