@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -70,6 +71,9 @@ pub(super) struct SceneArguments {
     /// Run the law in a process of its own, so that a crash or a hang of it harms nothing else
     #[arg(long)]
     pub(super) isolate: bool,
+    /// Seconds that one call of an isolated law may take before its process is ended [default: 60]
+    #[arg(long, value_name = "SECONDS", requires = "isolate", value_parser = seconds)]
+    pub(super) deadline: Option<Duration>,
 }
 
 #[derive(Debug, Clone, Args)]
@@ -86,7 +90,7 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
     /// List the built-in exact answers for [reference] kind, and run nothing
-    #[arg(long, conflicts_with_all = ["scene", "law", "overrides", "isolate", "out", "threads"])]
+    #[arg(long, conflicts_with_all = ["scene", "law", "overrides", "isolate", "deadline", "out", "threads"])]
     pub(super) references: bool,
 }
 
@@ -160,6 +164,13 @@ pub(super) struct ApdlArguments {
     /// Number of the material [default: the only one with a wear law]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(super) material: Option<i64>,
+}
+
+/// A positive number of seconds.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let wrong = || "expected a number of seconds above 0, such as 0.5".to_owned();
+    let number: f64 = text.parse().map_err(|_| wrong())?;
+    Duration::try_from_secs_f64(number).ok().filter(|duration| !duration.is_zero()).ok_or_else(wrong)
 }
 
 const FIRST_STEPS: &str = "\

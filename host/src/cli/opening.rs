@@ -4,6 +4,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
+use super::args::SceneArguments;
 use super::build::compiled;
 use super::console::Console;
 use super::inspect::opened_embedded;
@@ -11,7 +12,7 @@ use super::interrupt::Interrupt;
 use crate::error::{Error, UsageError};
 use crate::law::build::BuildRequest;
 use crate::law::file_facts::FileFacts;
-use crate::law::isolate::{IsolateOptions, IsolatedLaw, Source};
+use crate::law::isolate::{DEADLINE, IsolateOptions, IsolatedLaw, Source};
 use crate::law::lookup::{self, LawSource};
 use crate::law::{Evaluator, LoadError, LoadOptions, Plugin};
 use crate::scene::{Located, Scene};
@@ -37,10 +38,9 @@ pub(super) fn open(
     console: &Console,
     interrupt: &Interrupt,
     scene: &Scene,
-    instead: Option<&str>,
-    isolate: bool,
+    shared: &SceneArguments,
 ) -> Result<OpenedLaw, Error> {
-    let found = match instead {
+    let found = match shared.law.as_deref() {
         Some(name) => lookup::find(name, Path::new("")).map_err(|error| Located::new(error, None))?,
         None => {
             let base = scene.file.parent().unwrap_or(Path::new(""));
@@ -68,8 +68,9 @@ pub(super) fn open(
     };
     let (sha256, options, law) = (scene.law.sha256.clone(), scene.law.options.clone(), found.law);
     let mut warnings = Vec::new();
-    let evaluator: Box<dyn Evaluator> = if isolate {
-        let wanted = IsolateOptions { sha256, law, options, ..IsolateOptions::new(source) };
+    let evaluator: Box<dyn Evaluator> = if shared.isolate {
+        let deadline = shared.deadline.unwrap_or(DEADLINE);
+        let wanted = IsolateOptions { sha256, law, options, deadline, ..IsolateOptions::new(source) };
         Box::new(IsolatedLaw::open(&wanted)?)
     } else {
         let plugin = match &source {

@@ -59,6 +59,7 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     let plan = Plan::new(&scene, law.evaluator.descriptor())?;
     check_folder(&settings.out)?;
     let run = Run::prepare(&plan, law.evaluator.as_ref())?;
+    run.check_reference()?;
     let folder = WholeFolder::begin(&settings.out)?;
     let wanted = !plan.output.fields.is_empty() && !plan.output.formats.is_empty();
     let formats: Vec<FieldFormat> = plan.output.formats.iter().map(|format| field_format(*format)).collect();
@@ -79,7 +80,11 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     }
     fields.map(FieldSeries::finish).transpose()?;
     let finished = matches!(record.end, End::Done | End::Stopped(_));
-    let error = if finished { run.error(&record)? } else { None };
+    // A reference that fails costs its error norm, not the results.
+    let (error, without_reference) = match if finished { run.error(&record) } else { Ok(None) } {
+        Ok(error) => (error, None),
+        Err(failure) => (None, Some(failure)),
+    };
     let report = report(&scene, &plan, &law, settings, &record, error.as_ref())?;
     write_history(&record.history, &folder.path().join("history.csv"))?;
     let title = scene.title.clone().unwrap_or_else(|| settings.scene.display().to_string());
@@ -95,6 +100,10 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
             (error.exit_code(), Some(error))
         }
         End::Interrupted => (ExitCode::Interrupted, None),
+        End::Done | End::Stopped(_) if without_reference.is_some() => {
+            let error = without_reference.map_or(Error::Interrupted, Error::from);
+            (error.exit_code(), Some(error))
+        }
         End::Done | End::Stopped(_) if missed.is_some() => (ExitCode::FallsShort, None),
         End::Done | End::Stopped(_) => (ExitCode::Done, None),
     };
@@ -229,7 +238,7 @@ pub(super) fn prepared(
 ) -> Result<(Scene, OpenedLaw), Error> {
     let overrides: Vec<Override> = shared.overrides.iter().map(|text| Override::from(text.as_str())).collect();
     let scene = Scene::read(file, &overrides)?;
-    let law = opening::open(console, interrupt, &scene, shared.law.as_deref(), shared.isolate)?;
+    let law = opening::open(console, interrupt, &scene, shared)?;
     law.warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
     Ok((scene, law))
 }

@@ -82,6 +82,16 @@ pub enum ConstantsError {
     },
 }
 
+impl ConstantsError {
+    /// The name of the constant that a scene gives wrongly, where there is one to point at.
+    pub fn constant(&self) -> Option<&str> {
+        match self {
+            Self::Unknown { name, .. } | Self::Twice { name, .. } | Self::OutOfBounds { name, .. } => Some(name),
+            Self::TooMany { .. } | Self::Required { .. } => None,
+        }
+    }
+}
+
 fn list(names: &[String]) -> String {
     if names.is_empty() {
         return "none".to_owned();

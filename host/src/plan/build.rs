@@ -97,7 +97,13 @@ impl Plan {
         let history = prescribed.history.as_ref().map(|path| scene.resolve(path));
         let header = history.as_ref().map(|path| Header::read(path)).transpose();
         let header = header.map_err(|problem| scene.error_at("contact.history", problem.into()))?;
-        let blocks = loading::blocks(scene, header.is_some())?;
+        if let Some(header) = &header {
+            // A misspelt name is the cause, a quantity that the law misses only what follows from it.
+            let mut known = Needs::none();
+            law.inputs.iter().for_each(|input| known.allow(&input.name));
+            header.check_names(&known).map_err(|problem| scene.error_at("contact.history", problem.into()))?;
+        }
+        let blocks = loading::blocks(scene, header.as_ref())?;
         let output = OutputPlan::new(scene, law)?;
         let (advance, how) = advance::choose(scene, law)?;
         let mut skipped = Vec::new();

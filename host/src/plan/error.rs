@@ -144,23 +144,13 @@ pub enum PlanProblem {
         "found load steps beside cycles over a history, expected one or the other: a history is gone through from its start in every cycle"
     )]
     StepsAndCycles,
-    /// A history has one instant and nothing says how long it lasts.
-    #[error(
-        "`{history}` has a single time and no load step gives a duration, expected `step.duration` or a second time"
-    )]
-    NoDuration {
-        /// The history.
-        history: String,
-    },
-    /// The history ends before the loading.
-    #[error("the load steps last {asked} but `{history}` covers {covered}, expected a history at least as long")]
-    HistoryTooShort {
-        /// The history.
-        history: String,
-        /// What the load steps ask for.
-        asked: f64,
-        /// What the history covers.
-        covered: f64,
+    /// A quantity in a load step and in the history.
+    #[error("found `{key}` and a column `{column}` in `contact.history`, expected one of them")]
+    GivenTwice {
+        /// The scene's key.
+        key: String,
+        /// The history's column.
+        column: &'static str,
     },
     /// A velocity for each point from a file.
     #[error(

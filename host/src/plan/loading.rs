@@ -1,5 +1,6 @@
 //! Load steps and cycles of a scene as plain numbers.
 
+use crate::contact::prescribed::{Column, Header, Motion};
 use crate::plan::{PlanError, PlanProblem};
 use crate::scene::{Drive, Field, Quantity, Scene, Sliding, Step};
 
@@ -49,9 +50,19 @@ pub struct Block {
 ///
 /// # Errors
 /// Loading that a prescribed scene cannot have.
-pub(super) fn blocks(scene: &Scene, has_history: bool) -> Result<Vec<Block>, PlanError> {
-    if has_history && !scene.cycles.is_empty() && !scene.steps.is_empty() {
+pub(super) fn blocks(scene: &Scene, header: Option<&Header>) -> Result<Vec<Block>, PlanError> {
+    if header.is_some() && !scene.cycles.is_empty() && !scene.steps.is_empty() {
         return Err(scene.error_at("cycle.0", PlanProblem::StepsAndCycles));
+    }
+    if let Some(header) = header {
+        for (index, step) in scene.steps.iter().enumerate() {
+            given_once(scene, header, &format!("step.{index}"), step)?;
+        }
+        for (outer, cycle) in scene.cycles.iter().enumerate() {
+            for (index, step) in cycle.steps.iter().enumerate() {
+                given_once(scene, header, &format!("cycle.{outer}.step.{index}"), step)?;
+            }
+        }
     }
     let mut blocks = Vec::new();
     let mut before = Step::default();
@@ -65,6 +76,28 @@ pub(super) fn blocks(scene: &Scene, has_history: bool) -> Result<Vec<Block>, Pla
         blocks.push(Block { count: cycle.count, cycle: true, steps });
     }
     Ok(blocks)
+}
+
+/// Refuses a load step that gives what the history gives: one of them would be passed over in silence.
+fn given_once(scene: &Scene, header: &Header, base: &str, step: &Step) -> Result<(), PlanError> {
+    let motion = match header.motion() {
+        Motion::None => None,
+        Motion::Velocity => Some("velocity"),
+        Motion::Slip => Some("slip"),
+        Motion::SlipVector => Some("slip_x"),
+    };
+    let sliding = step.sliding.as_ref().map(|sliding| match sliding {
+        Sliding::Velocity { .. } => "velocity",
+        Sliding::Stroke { .. } => "stroke",
+    });
+    let warm = header.has_column(Column::Temperature).then_some("temperature");
+    for (key, column) in [(sliding, motion), (step.temperature.map(|_| "temperature"), warm)] {
+        if let (Some(key), Some(column)) = (key, column) {
+            let key = format!("{base}.{key}");
+            return Err(scene.error_at(&key, PlanProblem::GivenTwice { key: key.clone(), column }));
+        }
+    }
+    Ok(())
 }
 
 fn lower(

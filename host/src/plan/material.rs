@@ -1,5 +1,7 @@
 //! From what a scene or a deck gives to the law's constants and the host's settings for it.
 
+use serde::Serialize;
+
 use crate::apdl::{Deck, LawOption, ScalingKind as DeckScaling, WearMaterial};
 use crate::law::{GivenConstants, LawDescriptor, UnitSizes};
 use crate::plan::constants::{ConstantTable, Row};
@@ -71,7 +73,7 @@ impl Material {
 }
 
 /// The one value that the scene and another place agree on.
-fn settle<T: PartialEq + std::fmt::Debug + Copy>(
+fn settle<T: PartialEq + Serialize + Copy>(
     scene: &Scene,
     key: &'static str,
     ours: Option<T>,
@@ -80,11 +82,16 @@ fn settle<T: PartialEq + std::fmt::Debug + Copy>(
 ) -> Result<Option<T>, PlanError> {
     match (ours, theirs) {
         (Some(a), Some(b)) if a != b => {
-            let (a, b) = (format!("{a:?}"), format!("{b:?}"));
+            let (a, b) = (as_written(&a), as_written(&b));
             Err(scene.error_at(key, PlanProblem::Both { key, scene: a, other: b, place }))
         }
         _ => Ok(ours.or(theirs)),
     }
+}
+
+/// A value as a scene would have it.
+fn as_written(value: &impl Serialize) -> String {
+    serde_json::to_string(value).unwrap_or_default()
 }
 
 /// A vector scaled to length 1; already checked not to be zero.
@@ -129,7 +136,10 @@ fn row_of(
         Constants::ByName(named) => {
             let pairs: Vec<(String, f64)> = named.iter().map(|(name, value)| (name.clone(), *value)).collect();
             let values = law.resolve_constants(GivenConstants::ByName(&pairs), units);
-            let values = values.map_err(|problem| scene.error_at(key, problem.into()))?;
+            let values = values.map_err(|problem| {
+                let key = problem.constant().map_or_else(|| key.to_owned(), |name| format!("{key}.{name}"));
+                scene.error_at(&key, problem.into())
+            })?;
             Ok((values, Controls::default()))
         }
         Constants::ByPosition(list) => {

@@ -6,13 +6,9 @@ use crate::contact::prescribed::{Column, History, Motion};
 use crate::law::{Batch, BatchError, CallNumbers, Field, Indices, LawDescriptor, Values};
 use crate::plan::{Linear, Plan};
 use crate::scene::Basis;
+use crate::solve::kinematics::{ALONG, UP, contact_state, normal_at, path, speed_of, speeds, tangent};
 use crate::solve::schedule::Piece;
 use crate::solve::source::{Rate, Source, map, value, vector, vectors, zip};
-
-/// The default outward normal of the wearing body, +z.
-pub(super) const UP: [f64; 3] = [0.0, 0.0, 1.0];
-/// The default first tangent, +x.
-const ALONG: [f64; 3] = [1.0, 0.0, 0.0];
 
 /// Everything that drives the points over one piece.
 pub(super) struct Drive<'h> {
@@ -425,82 +421,5 @@ impl Site<'_> {
     /// Number of a point in the history's numbering.
     pub(super) fn id(&self, i: usize) -> i64 {
         self.history.map_or(i as i64, |history| history.point_ids().get(i))
-    }
-}
-
-fn contact_state(pressure: f64, speed: f64) -> i64 {
-    use wearlaw_plugin_api::abi::{WL_OPEN, WL_SLIDING, WL_STICK};
-    match (pressure > 0.0, speed > 0.0) {
-        (false, _) => WL_OPEN,
-        (true, false) => WL_STICK,
-        (true, true) => WL_SLIDING,
-    }
-}
-
-/// The unit normal at a point; +z where the scene gives none.
-fn normal_at(components: &[Values<'_>; 3], i: usize) -> [f64; 3] {
-    if components[0] == Values::Absent {
-        return UP;
-    }
-    let n = [0, 1, 2].map(|k| value(&components[k], i));
-    let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
-    n.map(|x| x / length)
-}
-
-/// The first tangent at a normal n: +x made perpendicular to n, or +y where n points along x.
-fn tangent(n: [f64; 3]) -> [f64; 3] {
-    let axis = if n[0].abs() < 0.9 { ALONG } else { [0.0, 1.0, 0.0] };
-    let dot: f64 = (0..3).map(|k| axis[k] * n[k]).sum();
-    let t = [0, 1, 2].map(|k| axis[k] - dot * n[k]);
-    let length = t.iter().map(|x| x * x).sum::<f64>().sqrt();
-    t.map(|x| x / length)
-}
-
-/// Length of the path with a velocity that goes linearly from `v` to `w` in `dt`, through zero or not.
-fn path(v: f64, w: f64, dt: f64) -> f64 {
-    if v * w < 0.0 { dt * (v * v + w * w) / (2.0 * (w - v).abs()) } else { 0.5 * (v.abs() + w.abs()) * dt }
-}
-
-fn speed_of<'b>(velocity: &[Values<'_>; 3], points: usize, room: &'b mut Vec<f64>) -> Values<'b> {
-    let at = |i: usize| {
-        let [u, v, w] = [0, 1, 2].map(|k| value(&velocity[k], i));
-        u.hypot(v).hypot(w)
-    };
-    if velocity.iter().all(|values| matches!(values, Values::Uniform(_))) {
-        return Values::Uniform(at(0));
-    }
-    room.clear();
-    room.extend((0..points).map(at));
-    Values::PerPoint(room)
-}
-
-fn speeds<'b>(
-    slip: &[Rate<'_>; 3],
-    range: Range<usize>,
-    [a, b, c]: [&mut Vec<f64>; 3],
-    room: &'b mut Vec<f64>,
-) -> Values<'b> {
-    let velocity = [slip[0].at(range.clone(), a), slip[1].at(range.clone(), b), slip[2].at(range.clone(), c)];
-    speed_of(&velocity, range.len(), room)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn paths_through_zero_count_both_ways() {
-        assert_eq!(path(1.0, 3.0, 2.0), 4.0);
-        assert_eq!(path(-1.0, 1.0, 2.0), 1.0);
-        assert_eq!(path(-1.0, 3.0, 4.0), 0.5 + 4.5);
-    }
-
-    #[test]
-    fn tangents_are_unit_and_in_the_surface() {
-        for n in [UP, [0.6, 0.0, 0.8], [1.0, 0.0, 0.0]] {
-            let t = tangent(n);
-            let (length, dot): (f64, f64) = (t.iter().map(|x| x * x).sum(), (0..3).map(|k| t[k] * n[k]).sum());
-            assert!((length - 1.0).abs() < 1e-15 && dot.abs() < 1e-15, "{n:?} {t:?}");
-        }
     }
 }

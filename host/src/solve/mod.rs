@@ -8,6 +8,7 @@ mod chunk;
 mod error;
 mod fields;
 mod inputs;
+mod kinematics;
 mod progress;
 mod reference;
 mod run;

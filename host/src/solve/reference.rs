@@ -102,13 +102,11 @@ pub fn compare(wear: &[f64], exact: &[f64], reference: &str) -> ErrorNorm {
     }
 }
 
-/// Wear depths of Archard's law from the linear pieces of a scene, by a quadrature of its own.
-pub(super) fn archard_prescribed(
-    plan: &Plan,
-    law: &str,
-    sites: &[(Site<'_>, Drive<'_>)],
-    points: usize,
-) -> Result<Vec<f64>, ReferenceError> {
+/// Checks that the exact answer to Archard's law covers a plan.
+///
+/// # Errors
+/// What it does not cover.
+pub(super) fn covered(plan: &Plan, law: &str) -> Result<(), ReferenceError> {
     let refuse = |reason: &'static str| Err(ReferenceError::NotCovered { reason });
     let material = &plan.material;
     if law != "archard" {
@@ -122,6 +120,18 @@ pub(super) fn archard_prescribed(
     } else if material.direction.is_some() {
         return refuse("the wear direction is not the default");
     }
+    Ok(())
+}
+
+/// Wear depths of Archard's law from the linear pieces of a scene, by a quadrature of its own.
+pub(super) fn archard_prescribed(
+    plan: &Plan,
+    law: &str,
+    sites: &[(Site<'_>, Drive<'_>)],
+    points: usize,
+) -> Result<Vec<f64>, ReferenceError> {
+    covered(plan, law)?;
+    let material = &plan.material;
     let times = material.constants.break_times();
     let at = |time: f64| {
         let constants = [0, 1, 2, 3].map(|c| material.constants.value(c, time, 0.0));

@@ -346,6 +346,25 @@ impl<'p> Run<'p> {
             .or_else(|| reached("wear_volume", row.wear_volume.unwrap_or(0.0), self.plan.stop.wear_volume))
     }
 
+    /// Checks, before anything is computed, that the reference which the plan names can be had.
+    ///
+    /// # Errors
+    /// A reference that does not cover the scene, or a file that cannot be read or lacks a point.
+    pub fn check_reference(&self) -> Result<(), SolveError> {
+        match &self.plan.reference {
+            None | Some(ReferencePlan::Refined) => {}
+            Some(ReferencePlan::File(path)) => drop(reference::from_file(path, self.ids())?),
+            Some(ReferencePlan::Exact(_)) => reference::covered(self.plan, &self.evaluator.descriptor().name)?,
+        }
+        Ok(())
+    }
+
+    /// The numbers of the points in the history, or from 0.
+    fn ids(&self) -> impl Iterator<Item = i64> + '_ {
+        let history = self.history.as_ref();
+        (0..self.points).map(move |i| history.map_or(i as i64, |history| history.point_ids().get(i)))
+    }
+
     /// Compares a record with the reference that the plan names; `None` if it names none.
     ///
     /// # Errors
@@ -353,11 +372,7 @@ impl<'p> Run<'p> {
     pub fn error(&self, record: &Record<SolveError>) -> Result<Option<ErrorNorm>, SolveError> {
         let Some(wanted) = &self.plan.reference else { return Ok(None) };
         let (exact, name) = match wanted {
-            ReferencePlan::File(path) => {
-                let history = self.history.as_ref();
-                let ids = (0..self.points).map(|i| history.map_or(i as i64, |history| history.point_ids().get(i)));
-                (reference::from_file(path, ids)?, path.display().to_string())
-            }
+            ReferencePlan::File(path) => (reference::from_file(path, self.ids())?, path.display().to_string()),
             ReferencePlan::Refined => (self.refined()?, "the same scene to a tolerance 100 times tighter".to_owned()),
             ReferencePlan::Exact(named) => {
                 let until = record.history.last().map_or(0.0, |row| row.time);

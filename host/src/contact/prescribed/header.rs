@@ -135,7 +135,11 @@ impl Header {
         }
     }
 
-    fn check_names(&self, needs: &Needs) -> Result<(), HistoryError> {
+    /// Checks that every name is known, by itself or to `needs`, and given once.
+    ///
+    /// # Errors
+    /// Unknown or repeated names.
+    pub fn check_names(&self, needs: &Needs) -> Result<(), HistoryError> {
         for (at, name) in self.names.iter().enumerate() {
             if self.names[..at].contains(name) {
                 return Err(HistoryError::RepeatedColumn {

@@ -1,0 +1,173 @@
+//! Modules of the program use each other in one direction, so that each can be read without those above it.
+
+#[path = "support/sources.rs"]
+mod sources;
+
+use std::path::Path;
+
+/// Each top-level module and the others of the crate that it may name.
+const MAY_USE: [(&str, &[&str]); 14] = [
+    ("scene", &[]),
+    ("reference", &[]),
+    ("contact", &[]),
+    ("record", &[]),
+    ("law", &[]),
+    ("apdl", &["scene"]),
+    ("integrator", &["law", "contact"]),
+    ("plan", &["scene", "apdl", "law", "contact", "integrator", "reference"]),
+    ("solve", &["plan", "record", "scene", "apdl", "law", "contact", "integrator", "reference"]),
+    ("output", &["record"]),
+    // Its tests read the scene that it writes.
+    ("templates", &["scene", "law"]),
+    ("error", ALL_BUT_CLI),
+    ("exit_code", ALL_BUT_CLI),
+    ("cli", EVERYTHING),
+];
+
+const ALL_BUT_CLI: &[&str] = &[
+    "scene", "reference", "contact", "record", "law", "apdl", "integrator", "plan", "solve", "output", "templates",
+    "error", "exit_code",
+];
+
+const EVERYTHING: &[&str] = ALL_BUT_CLI;
+
+/// The crate's own modules in a line of code that starts at its root, and in braces behind it.
+fn named(code: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (at, word) in code.match_indices("crate::") {
+        // `$crate::` and `other_crate::` are other roots.
+        if code[..at].ends_with(|before: char| before.is_alphanumeric() || before == '_' || before == '$') {
+            continue;
+        }
+        let behind = &code[at + word.len()..];
+        match behind.strip_prefix('{') {
+            Some(group) => found.extend(heads(group)),
+            None => found.extend(first_word(behind)),
+        }
+    }
+    found
+}
+
+/// The first word of each path in a group, up to its closing brace.
+fn heads(group: &str) -> Vec<String> {
+    let (mut depth, mut part, mut parts) = (0, String::new(), Vec::new());
+    for character in group.chars() {
+        match character {
+            '}' if depth == 0 => break,
+            ',' if depth == 0 => parts.push(std::mem::take(&mut part)),
+            _ => {
+                depth += i32::from(character == '{') - i32::from(character == '}');
+                part.push(character);
+            }
+        }
+    }
+    parts.push(part);
+    parts.iter().filter_map(|part| first_word(part.trim())).collect()
+}
+
+fn first_word(text: &str) -> Option<String> {
+    let end = text.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len());
+    (end > 0).then(|| text[..end].to_owned())
+}
+
+/// A file's code on one line, its comments gone; and how often `super` climbs at most in one path.
+fn code_of(text: &str) -> String {
+    let mut code = String::new();
+    for line in text.lines() {
+        // A `//` in a string cuts its line short, which hides no import.
+        code.push_str(line.split("//").next().unwrap_or_default());
+        code.push(' ');
+    }
+    code
+}
+
+/// The modules that a file names by climbing out of its own with `super`, given how deep its module lies.
+fn climbed(code: &str, depth: usize) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut rest = code;
+    while let Some(at) = rest.find("super::") {
+        let mut behind = &rest[at..];
+        let mut climbs = 0;
+        while let Some(next) = behind.strip_prefix("super::") {
+            (climbs, behind) = (climbs + 1, next);
+        }
+        if climbs == depth {
+            match behind.strip_prefix('{') {
+                Some(group) => found.extend(heads(group)),
+                None => found.extend(first_word(behind)),
+            }
+        }
+        rest = behind;
+    }
+    found
+}
+
+/// What a file of `host/src` uses that it may not; its path is relative to that folder.
+fn violations(path: &Path, text: &str) -> Vec<String> {
+    let mut parts: Vec<String> = path.iter().map(|part| part.to_string_lossy().replace(".rs", "")).collect();
+    parts.retain(|part| part != "mod");
+    let own = parts[0].clone();
+    if own == "lib" || own == "main" {
+        return Vec::new();
+    }
+    let Some((_, allowed)) = MAY_USE.iter().find(|(module, _)| *module == own) else {
+        return vec![format!("{}: module `{own}` has no place in the order of tests/layering.rs", path.display())];
+    };
+    let code = code_of(text);
+    let known = |word: &String| MAY_USE.iter().any(|(module, _)| module == word);
+    // The types that the crate's root re-exports stand for their modules.
+    let module = |word: String| match word.as_str() {
+        "Error" => "error".to_owned(),
+        "ExitCode" => "exit_code".to_owned(),
+        _ => word,
+    };
+    let mut used = named(&code);
+    used.extend(climbed(&code, parts.len()));
+    let used = used.into_iter().map(module).filter(known).filter(|word| *word != own);
+    used.filter(|word| !allowed.contains(&word.as_str()))
+        .map(|word| format!("{}: `{own}` uses `{word}`", path.display()))
+        .collect()
+}
+
+#[test]
+fn modules_use_only_those_below_them() {
+    let files = sources::below("host/src");
+    assert!(files.len() > 100, "the sources are where this test looks: {}", files.len());
+    let mut wrong = Vec::new();
+    for file in files.iter().filter(|file| file.extension().is_some_and(|ending| ending == "rs")) {
+        let inside = file.strip_prefix("host/src").expect("it is below host/src");
+        wrong.extend(violations(inside, &sources::text(file).expect("sources are UTF-8")));
+    }
+    assert!(wrong.is_empty(), "imports against the order:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_module_has_a_place_in_the_order() {
+    let lib = sources::text(Path::new("host/src/lib.rs")).expect("sources are UTF-8");
+    let mut declared: Vec<&str> =
+        lib.lines().filter_map(|line| line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';')).collect();
+    let mut known: Vec<&str> = MAY_USE.iter().map(|(module, _)| *module).collect();
+    declared.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(declared, known);
+}
+
+#[test]
+fn an_import_against_the_order_is_seen_however_it_is_written() {
+    let wrong = |path: &str, text: &str| violations(Path::new(path), text);
+    for text in [
+        "use crate::cli::Console;",
+        "use crate::{\n    scene::Scene,\n    cli::{a, b},\n};",
+        "fn f() -> crate::cli::Console {}",
+        "pub(super) use super::super::cli::Console;",
+    ] {
+        assert_eq!(wrong("plan/needs.rs", text), ["plan/needs.rs: `plan` uses `cli`"], "{text}");
+    }
+    assert_eq!(wrong("law/isolate/parent.rs", "use super::super::super::scene::Scene;").len(), 1);
+    assert_eq!(wrong("law/mod.rs", "use super::{plan, law};").len(), 1);
+    assert_eq!(wrong("scene/reader.rs", "use crate::Error;").len(), 1);
+    assert_eq!(wrong("new_one/mod.rs", "").len(), 1);
+    for text in ["use crate::scene::Scene;", "// use crate::cli::Console;", "use other_crate::cli;", "use super::cli;"] {
+        assert!(wrong("plan/needs.rs", text).is_empty(), "{text}");
+    }
+}
