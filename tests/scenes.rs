@@ -13,7 +13,7 @@ use npz::Npz;
 use scene_runs::{Ran, read, run, scenes, wearlaw};
 use serde_json::Value;
 
-/// The keys that every report has, by interface.md.
+/// The keys that every report has.
 const KEYS: [(&str, &[&str]); 8] = [
     ("scene", &[]),
     ("law", &["name", "version", "path", "sha256"]),
@@ -108,7 +108,7 @@ fn check_history(name: &str, ran: &Ran) {
     let text = ran.history();
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
-    let place = |wanted: &str| header.iter().position(|name| *name == wanted).expect("the columns of interface.md");
+    let place = |wanted: &str| header.iter().position(|name| *name == wanted).expect("the columns of a history");
     let (time, wear) = (place("time"), place("max_wear_depth"));
     for wanted in ["sliding_distance", "load", "approach", "max_pressure", "contact_area", "wear_volume", "scale"] {
         place(wanted);
