@@ -34,6 +34,7 @@ impl<'a> Answer<'a> {
     /// # Safety
     /// `output` is NULL or points to at least `struct_size` bytes of an output whose pointers are NULL or valid for
     /// writing the promised number of items for `'a`, without overlap.
+    #[inline]
     pub(crate) unsafe fn new(output: *mut Output, points: usize, state_count: usize) -> Option<Answer<'a>> {
         if output.is_null() {
             return None;
@@ -41,10 +42,8 @@ impl<'a> Answer<'a> {
         // SAFETY: the caller promises `struct_size` bytes and the lengths of the arrays; an all-zero `Output` is valid
         // (nothing wanted), and a pointer that is NULL makes no slice.
         unsafe {
-            let mut copy: Output = core::mem::zeroed();
             let given = usize::try_from((*output).struct_size).unwrap_or(0);
-            let size = given.min(size_of::<Output>());
-            core::ptr::copy_nonoverlapping(output.cast::<u8>(), (&raw mut copy).cast::<u8>(), size);
+            let copy = if given >= size_of::<Output>() { output.read() } else { widened(output, given) };
             if copy.increment.is_null() {
                 return None;
             }
@@ -103,10 +102,12 @@ impl<'a> Answer<'a> {
         self.say(Status::MissingInput, format_args!("a field that the law reads was not given"));
     }
     /// The worst status noted so far.
+    #[inline]
     pub fn worst(&self) -> Status {
         self.worst
     }
     /// Says of every point that it is good, where statuses are wanted.
+    #[inline]
     pub fn all_good(&mut self) {
         if let Some(all) = self.status.as_deref_mut() {
             all.fill(Status::Ok as i32);
@@ -117,6 +118,7 @@ impl<'a> Answer<'a> {
     ///
     /// # Safety
     /// `output` is the one this answer was made from.
+    #[inline]
     pub(crate) unsafe fn finish(&self, output: *mut Output) {
         // SAFETY: the output was read when this answer was made; these fields are part of its 1.0 size, which every
         // host has.
@@ -125,6 +127,20 @@ impl<'a> Answer<'a> {
             (*output).dt_factor = self.dt_factor;
             (*output).missing = self.missing;
         }
+    }
+}
+
+/// A copy of a short output, in which nothing is wanted that it does not have.
+///
+/// # Safety
+/// `output` points to at least `given` bytes, fewer than an `Output` has.
+#[cold]
+unsafe fn widened(output: *const Output, given: usize) -> Output {
+    // SAFETY: the caller promises `given` bytes, and the copy has more; all-zero bytes are a valid `Output`.
+    unsafe {
+        let mut copy: Output = core::mem::zeroed();
+        core::ptr::copy_nonoverlapping(output.cast::<u8>(), (&raw mut copy).cast::<u8>(), given);
+        copy
     }
 }
 

@@ -2,14 +2,13 @@
 //! The inputs of a call, with bounds.
 
 use core::marker::PhantomData;
-use core::mem::size_of;
+use core::mem::{MaybeUninit, size_of};
 
 use crate::abi::{self, View};
 
 /// The inputs of one call.
 pub struct Batch<'a> {
-    view: View,
-    life: PhantomData<&'a f64>,
+    view: &'a View,
 }
 
 /// One real input over the points of a batch.
@@ -110,24 +109,37 @@ impl Indices<'_> {
 }
 
 impl<'a> Batch<'a> {
-    /// Takes over the view of a call.
+    /// Takes over the view of a call; one that is shorter than this side's goes to `room` first.
     ///
     /// # Safety
-    /// `view` is NULL or points to at least `struct_size` bytes of a view whose columns stay valid for `'a`.
-    pub(crate) unsafe fn new(view: *const View) -> Option<Batch<'a>> {
+    /// `view` is NULL or points to at least `struct_size` bytes of a view that nobody writes for `'a` and whose columns
+    /// stay valid for `'a`.
+    #[inline]
+    pub(crate) unsafe fn new(view: *const View, room: &'a mut MaybeUninit<View>) -> Option<Batch<'a>> {
         if view.is_null() {
             return None;
         }
-        // SAFETY: the caller promises that `struct_size` bytes are there; all-zero bytes are a valid `View` (absent
-        // columns), and no more than both sides know is copied.
+        // SAFETY: the caller promises `struct_size` bytes; a view of the full size is read in place.
         let view = unsafe {
-            let mut copy: View = core::mem::zeroed();
             let given = usize::try_from((*view).struct_size).unwrap_or(0);
-            let size = given.min(size_of::<View>());
-            core::ptr::copy_nonoverlapping(view.cast::<u8>(), (&raw mut copy).cast::<u8>(), size);
-            copy
+            if given >= size_of::<View>() { &*view } else { Self::widened(view, given, room) }
         };
-        (view.points >= 0).then_some(Batch { view, life: PhantomData })
+        (view.points >= 0).then_some(Batch { view })
+    }
+
+    /// A copy of a short view, in which everything that it does not have is absent.
+    ///
+    /// # Safety
+    /// `view` points to at least `given` bytes, fewer than a `View` has.
+    #[cold]
+    unsafe fn widened(view: *const View, given: usize, room: &'a mut MaybeUninit<View>) -> &'a View {
+        *room = MaybeUninit::zeroed();
+        // SAFETY: the caller promises `given` bytes, and the room has more; all-zero bytes are a valid `View` (absent
+        // columns), and so is any prefix of one.
+        unsafe {
+            core::ptr::copy_nonoverlapping(view.cast::<u8>(), room.as_mut_ptr().cast::<u8>(), given);
+            room.assume_init_ref()
+        }
     }
 
     /// Number of points.
@@ -137,8 +149,8 @@ impl<'a> Batch<'a> {
     }
     /// The scalars of the call (times, numbers, units); its columns are better read through the methods here.
     #[inline]
-    pub fn view(&self) -> &View {
-        &self.view
+    pub fn view(&self) -> &'a View {
+        self.view
     }
     /// Duration of the substep; time.
     #[inline]
@@ -203,13 +215,20 @@ macro_rules! columns {
             $(#[doc = $text] #[inline] pub fn $name(&self) -> Option<Column<'a>> { self.column(self.view.$name) })*
 
             /// Field bits of `wanted` that this call does not give.
+            #[inline]
             pub fn missing(&self, wanted: i64) -> i64 {
-                let mut there = 0;
-                $(if !self.view.$name.ptr.is_null() { there |= abi::$bit; })*
-                if !self.view.contact_state.ptr.is_null() { there |= abi::WL_FIELD_CONTACT_STATE; }
-                if !self.view.point_id.ptr.is_null() { there |= abi::WL_FIELD_POINT_ID; }
-                if !self.view.element_id.ptr.is_null() { there |= abi::WL_FIELD_ELEMENT_ID; }
-                wanted & !there
+                let mut missing = wanted & !abi::WL_FIELDS_KNOWN;
+                $(if wanted & abi::$bit != 0 && self.view.$name.ptr.is_null() { missing |= abi::$bit; })*
+                for (bit, column) in [
+                    (abi::WL_FIELD_CONTACT_STATE, &self.view.contact_state),
+                    (abi::WL_FIELD_POINT_ID, &self.view.point_id),
+                    (abi::WL_FIELD_ELEMENT_ID, &self.view.element_id),
+                ] {
+                    if wanted & bit != 0 && column.ptr.is_null() {
+                        missing |= bit;
+                    }
+                }
+                missing
             }
         }
     };

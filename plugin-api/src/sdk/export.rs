@@ -3,7 +3,7 @@
 
 use core::ffi::{CStr, c_char, c_void};
 use core::fmt::Write;
-use core::mem::{offset_of, size_of};
+use core::mem::{MaybeUninit, offset_of, size_of};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::abi::{
@@ -242,10 +242,11 @@ unsafe extern "C" fn create<T: Law>(
 }
 
 unsafe extern "C" fn evaluate<T: Law>(instance: *mut c_void, view: *const View, output: *mut Output) -> i32 {
+    let mut room = MaybeUninit::uninit();
     // SAFETY: the host promises that view and output are valid for the call, and gives the instance that `create` made.
     let (law, batch, answer) = unsafe {
         let law = instance.cast::<T>().as_ref();
-        let batch = Batch::new(view);
+        let batch = Batch::new(view, &mut room);
         let points = batch.as_ref().map_or(0, Batch::points);
         (law, batch, Answer::new(output, points, T::STATE.len()))
     };

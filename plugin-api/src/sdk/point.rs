@@ -1,8 +1,10 @@
 //! A law written for one point, and the loop over the batch that is made for it.
 //!
-//! Fields that lie side by side are read in place; uniform and strided ones go through a block of [`BLOCK`] values, so
+//! Fields that lie side by side are read in place; uniform and strided ones go through blocks of [`BLOCK`] values, so
 //! that one loop with unit steps serves all of them and the compiler can vectorise it. What a law did not declare is
 //! never loaded: the masks are constants, so the tests on them vanish at compile time.
+
+use core::mem::MaybeUninit;
 
 use crate::abi::{
     WL_FIELD_ACCUMULATED_SLIP, WL_FIELD_ACCUMULATED_WEAR, WL_FIELD_AREA, WL_FIELD_CONTACT_STATE, WL_FIELD_COORDINATES,
@@ -16,6 +18,8 @@ use super::{About, Answer, Batch, Column, Law, Status};
 
 /// Points that are handled between two looks at the columns.
 const BLOCK: usize = 64;
+/// A block of a field that the call does not give.
+static ABSENT: [f64; BLOCK] = [f64::NAN; BLOCK];
 /// Most constants, and most further inputs, of a law written for one point.
 const MOST: usize = 16;
 /// Most state variables of a law written for one point.
@@ -168,19 +172,28 @@ fn columns<'a>(count: usize, get: impl Fn(usize) -> Option<Column<'a>>) -> Optio
 
 macro_rules! scalars {
     ($($name:ident: $bit:ident),*) => {
-        /// Room for the scalar fields of one block.
-        struct Block { $($name: [f64; BLOCK],)* }
+        /// Room for the scalar fields of one block; only those that do not lie side by side are ever written.
+        struct Block { $($name: MaybeUninit<[f64; BLOCK]>,)* }
         impl Block {
-            fn empty() -> Block { Block { $($name: [f64::NAN; BLOCK],)* } }
+            fn empty() -> Block { Block { $($name: MaybeUninit::uninit(),)* } }
         }
         /// The scalar fields of one block, side by side.
         struct Scalars<'b> { $($name: &'b [f64],)* }
         impl<'b> Scalars<'b> {
+            /// Whether all of the law's scalar fields lie side by side, so that one block holds any number of points.
+            #[inline(always)]
+            fn in_place<T: About>(batch: &Batch<'_>) -> bool {
+                true $(&& ((T::READS | T::USES) & $bit == 0 || batch.$name().is_some_and(|c| c.slice().is_some())))*
+            }
             #[inline(always)]
             fn load<T: About>(batch: &'b Batch<'_>, start: usize, len: usize, room: &'b mut Block) -> Scalars<'b> {
                 Scalars { $($name: match batch.$name() {
-                    Some(column) if (T::READS | T::USES) & $bit != 0 => column.gather(start, &mut room.$name[..len]),
-                    _ => &room.$name[..len],
+                    _ if (T::READS | T::USES) & $bit == 0 => &[],
+                    None => &ABSENT[..len],
+                    Some(column) => match column.slice() {
+                        Some(all) => &all[start..start + len],
+                        None => column.gather(start, &mut room.$name.write(ABSENT)[..len]),
+                    },
                 },)* }
             }
             #[inline(always)]
@@ -223,9 +236,10 @@ fn run<T: PointLaw, const UNIFORM: bool>(
     }
     let turns = T::WRITES & WL_OUT_DIRECTION != 0;
     let mut room = Block::empty();
+    let block = if Scalars::in_place::<T>(batch) { points } else { BLOCK };
     let mut start = 0;
     while start < points {
-        let len = BLOCK.min(points - start);
+        let len = block.min(points - start);
         let scalars = Scalars::load::<T>(batch, start, len, &mut room);
         let one = |k: usize| {
             let i = start + k;

@@ -100,17 +100,24 @@ pub enum Instructions {
 /// point only: not on the batch, on steps, or on the instructions. See [the module](super) for
 /// what comes out where an input is zero, negative or not finite.
 ///
+/// True says that every increment is finite and comes from finite inputs, `v` aside where n = 0; false says nothing.
+///
 /// # Panics
 /// If a column is shorter than `out`, or `slope` has another length: a fault of the caller.
-pub fn increments(inputs: &Inputs, out: &mut [f64], slope: Option<&mut [f64]>) {
-    increments_by(Instructions::Best, inputs, out, slope);
+pub fn increments(inputs: &Inputs, out: &mut [f64], slope: Option<&mut [f64]>) -> bool {
+    increments_by(Instructions::Best, inputs, out, slope)
 }
 
 /// [`increments`] with a choice of instructions.
 ///
 /// # Panics
 /// As [`increments`].
-pub fn increments_by(instructions: Instructions, inputs: &Inputs, out: &mut [f64], mut slope: Option<&mut [f64]>) {
+pub fn increments_by(
+    instructions: Instructions,
+    inputs: &Inputs,
+    out: &mut [f64],
+    mut slope: Option<&mut [f64]>,
+) -> bool {
     let Inputs { pressure, velocity, m, n, coefficient, hardness, dt } = *inputs;
     let points = out.len();
     for column in [pressure, velocity, m, n, coefficient, hardness] {
@@ -120,7 +127,7 @@ pub fn increments_by(instructions: Instructions, inputs: &Inputs, out: &mut [f64
         assert_eq!(slope.len(), points, "one slope per point");
     }
     if points == 0 {
-        return;
+        return true;
     }
     let uniform = match (m.one_for_all(), n.one_for_all()) {
         (Some(m), Some(n)) => match (coefficient.one_for_all(), hardness.one_for_all()) {
@@ -133,6 +140,7 @@ pub fn increments_by(instructions: Instructions, inputs: &Inputs, out: &mut [f64
         let (p, v) = (&pressure.values[..points], &velocity.values[..points]);
         return run(instructions, p, v, constants, out, slope);
     }
+    let mut plain = true;
     let mut rooms = [[0.0; BLOCK]; 6];
     for start in (0..points).step_by(BLOCK) {
         let len = BLOCK.min(points - start);
@@ -142,7 +150,7 @@ pub fn increments_by(instructions: Instructions, inputs: &Inputs, out: &mut [f64
         let out = &mut out[start..start + len];
         let slope = slope.as_deref_mut().map(|s| &mut s[start..start + len]);
         if let Some(constants) = uniform {
-            run(instructions, p, v, constants, out, slope);
+            plain &= run(instructions, p, v, constants, out, slope);
             continue;
         }
         let each = Each {
@@ -153,8 +161,9 @@ pub fn increments_by(instructions: Instructions, inputs: &Inputs, out: &mut [f64
             h: hardness.block(start, h),
             dt,
         };
-        run(instructions, p, v, each, out, slope);
+        plain &= run(instructions, p, v, each, out, slope);
     }
+    plain
 }
 
 /// The kind that the kernel of a whole column of exponents must answer for.

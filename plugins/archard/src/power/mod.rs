@@ -77,9 +77,11 @@ mod exact;
 mod kernel;
 mod linear;
 mod scale;
+mod steady;
 mod sweep;
 #[cfg(test)]
 mod tests;
 
 pub use batch::{Column, Inputs, Instructions, increments, increments_by};
 pub use scale::Scale;
+pub use steady::steady;

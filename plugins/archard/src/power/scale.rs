@@ -96,6 +96,16 @@ impl Scale {
         Self { hi: hi * sign, lo: lo * sign, exponent: if nothing { 0.0 } else { ke - he + de } }
     }
 
+    /// The same number as `Scale::new(k, h, dt).value()` where all that arises is positive and normal: as every step is
+    /// rounded relative to its size, binary exponents need not be held apart.
+    #[inline(always)]
+    pub(super) fn value_of_usual(k: f64, h: f64, dt: f64) -> f64 {
+        let q = k / h;
+        let q_lo = (-q).mul_add(h, k) / h;
+        let (w, e) = two_product(q, dt);
+        w + q_lo.mul_add(dt, e)
+    }
+
     /// The factor rounded to a double (infinite or zero beyond the range of doubles).
     #[inline(always)]
     #[must_use]

@@ -11,7 +11,8 @@ use super::linear;
 /// Points that go through the stages of a general power together.
 const STRIP: usize = 32;
 
-/// Evaluates adjacent points; all slices have the length of `out`.
+/// Evaluates adjacent points; all slices have the length of `out`. True if the kernel for these exponents has answered
+/// at every point: finite increments from inputs that are finite, a base with exponent 0 aside.
 pub(super) fn run<C: Constants>(
     instructions: Instructions,
     p: &[f64],
@@ -19,7 +20,7 @@ pub(super) fn run<C: Constants>(
     constants: C,
     out: &mut [f64],
     slope: Option<&mut [f64]>,
-) {
+) -> bool {
     #[cfg(target_arch = "x86_64")]
     {
         let fused = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
@@ -27,40 +28,41 @@ pub(super) fn run<C: Constants>(
             // SAFETY: `run_avx2` demands AVX2 and FMA; the processor was asked for both just above.
             unsafe { run_avx2(p, v, constants, out, slope) }
         } else {
-            run_any(p, v, constants, out, slope);
+            run_any(p, v, constants, out, slope)
         }
     }
     #[cfg(not(target_arch = "x86_64"))]
     {
         let _ = instructions;
-        choose(p, v, constants, out, slope);
+        choose(p, v, constants, out, slope)
     }
 }
 
 /// [`choose`] compiled for AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn run_avx2<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], slope: Option<&mut [f64]>) {
-    choose(p, v, constants, out, slope);
+fn run_avx2<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], slope: Option<&mut [f64]>) -> bool {
+    choose(p, v, constants, out, slope)
 }
 
 /// Without fused multiply-add in hardware a loop has nothing to gain over single points, which the
 /// mathematics library's `fma` bounds; so these loops are not compiled a second time.
 #[cfg(target_arch = "x86_64")]
-fn run_any<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], slope: Option<&mut [f64]>) {
+fn run_any<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], slope: Option<&mut [f64]>) -> bool {
     let constants = constants.ready();
     if constants.kinds() == (LINEAR, LINEAR) && slope.is_none() {
-        if products::<C, LINEAR, LINEAR, false>(p, v, constants, out, &mut []) {
-            finish(p, v, constants, out, slope);
+        if !products::<C, LINEAR, LINEAR, false>(p, v, constants, out, &mut []) {
+            return true;
         }
     } else {
         out.fill(f64::NAN);
-        finish(p, v, constants, out, slope);
     }
+    finish(p, v, constants, out, slope);
+    false
 }
 
 #[inline(always)]
-fn choose<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], mut slope: Option<&mut [f64]>) {
+fn choose<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], mut slope: Option<&mut [f64]>) -> bool {
     let constants = constants.ready();
     macro_rules! by_kind {
         ($($by:ident $m:ident $n:ident),*) => {
@@ -79,6 +81,7 @@ fn choose<C: Constants>(p: &[f64], v: &[f64], constants: C, out: &mut [f64], mut
     if left {
         finish(p, v, constants, out, slope);
     }
+    !left
 }
 
 /// Evaluates every point by the kernel of one pair of kinds; whether some are left unanswered.

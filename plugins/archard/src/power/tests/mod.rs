@@ -6,6 +6,7 @@ mod edges;
 mod known;
 mod parity;
 mod reference;
+mod steady;
 
 use super::{Column, Inputs, Instructions, increments_by};
 

@@ -1,0 +1,94 @@
+//! m = n = 1 with ordinary numbers throughout, the common case: products at the speed of memory.
+//!
+//! The increments are those of the general path, to the bit. What is left to that path is found out on the way, by
+//! whole numbers: the upper half of a double, as an unsigned number, is at least [`INFINITE`] if the double is
+//! negative, infinite or not a number, so one maximum over all points tells of every increment.
+#![allow(unsafe_code)] // Loads and stores of four doubles; a call of functions compiled for AVX2 and FMA.
+
+use super::linear::products;
+use super::kernel::LINEAR;
+use super::scale::Scale;
+
+/// Upper half of infinity.
+const INFINITE: u32 = 0x7ff0_0000;
+/// K, H and dt outside `1 / WIDE ..= WIDE` are left to the general path: (K/H) dt and the steps to it stay normal.
+const WIDE: f64 = 1.0e60;
+/// Bits of a pressure (about 1e-100) that every such factor multiplies to a normal number, as do all above it. The lower
+/// half is zero, so that differences from it keep infinity apart from the largest number in the upper half.
+const LEAST: u64 = 0x2b2b_ff2f_0000_0000;
+
+/// Writes `(K/H) dt p |v|` to `out` and says whether that is the answer: K, H, dt and every pressure are positive and
+/// of an ordinary size (a pressure may be 0 or negative: no wear), inputs and increments are finite.
+///
+/// If not, `out` holds nothing of use and [`increments`](super::increments) must answer.
+#[inline]
+#[must_use]
+pub fn steady(p: &[f64], v: &[f64], (k, h, dt): (f64, f64, f64), out: &mut [f64]) -> bool {
+    #[cfg(target_arch = "x86_64")]
+    {
+        let usual = |x: f64| (1.0 / WIDE..=WIDE).contains(&x);
+        if usual(k) & usual(h) & usual(dt) && is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            // SAFETY: the processor has just been asked for both features.
+            return unsafe { steady_avx2(p, v, (k, h, dt), out) };
+        }
+    }
+    let _ = (p, v, k, h, dt, out, WIDE);
+    false
+}
+
+/// [`steady`] for usual constants.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn steady_avx2(p: &[f64], v: &[f64], (k, h, dt): (f64, f64, f64), out: &mut [f64]) -> bool {
+    use std::arch::x86_64::*;
+    let c = Scale::value_of_usual(k, h, dt);
+    let points = out.len();
+    let (p, v) = (&p[..points], &v[..points]);
+    let whole = points - points % 4;
+    let (factor, zero) = (_mm256_set1_pd(c), _mm256_setzero_pd());
+    let size = _mm256_set1_pd(f64::from_bits(!(1 << 63)));
+    let least = _mm256_set1_epi64x(LEAST as i64);
+    let (mut most_p, mut most_w) = (_mm256_setzero_si256(), _mm256_setzero_si256());
+    for i in (0..whole).step_by(4) {
+        // SAFETY: `i + 4 <= whole`, which is at most the length of each of the three slices.
+        unsafe {
+            let bits = _mm256_loadu_si256(p.as_ptr().add(i).cast());
+            // The second operand is the answer where the first is not a number.
+            let first = _mm256_mul_pd(factor, _mm256_max_pd(_mm256_castsi256_pd(bits), zero));
+            let wear = _mm256_mul_pd(first, _mm256_and_pd(_mm256_loadu_pd(v.as_ptr().add(i)), size));
+            _mm256_storeu_pd(out.as_mut_ptr().add(i), wear);
+            // Below LEAST the difference wraps around, to above everything that is usual.
+            most_p = _mm256_max_epu32(most_p, _mm256_sub_epi64(bits, least));
+            most_w = _mm256_max_epu32(most_w, _mm256_castpd_si256(wear));
+        }
+    }
+    let mut left = false;
+    for i in whole..points {
+        let (outcome, doubtful) = products::<LINEAR, LINEAR>(p[i], v[i], c);
+        out[i] = outcome.wear;
+        left |= doubtful;
+    }
+    if whole == 0 {
+        return !left;
+    }
+    let most = |x: __m256i| {
+        let x = _mm_max_epu32(_mm256_castsi256_si128(x), _mm256_extracti128_si256::<1>(x));
+        let x = _mm_max_epu32(x, _mm_shuffle_epi32::<0b01_00_11_10>(x));
+        _mm_extract_epi32::<1>(x) as u32
+    };
+    left |= most(most_w) >= INFINITE;
+    // The largest usual difference is that of f64::MAX; those of negative numbers, NaN and small numbers are larger.
+    if most(most_p) > ((f64::MAX.to_bits() - LEAST) >> 32) as u32 {
+        left |= some_unusual(&p[..whole]);
+    }
+    !left
+}
+
+/// Whether a pressure is not finite or lies between 0 and [`LEAST`].
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+#[cold]
+fn some_unusual(p: &[f64]) -> bool {
+    let least = f64::from_bits(LEAST);
+    p.iter().fold(0u64, |all, p| all | u64::from(!(p.abs() <= f64::MAX) | ((*p > 0.0) & (*p < least)))) != 0
+}
