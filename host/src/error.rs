@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::apdl::{DeckError, LowerError};
+use crate::apdl::{DeckError, Diagnostic, LowerError};
 use crate::contact::prescribed::HistoryError;
 use crate::exit_code::ExitCode;
 use crate::law::build::BuildError;
@@ -157,6 +157,18 @@ impl Error {
         }
     }
 
+    /// The wrong command of an input deck, read by itself or for a scene.
+    fn in_deck(&self) -> Option<&Diagnostic> {
+        match self {
+            Self::Deck(DeckError::Command(found)) => Some(found),
+            Self::Plan(error) => match &*error.problem {
+                PlanProblem::Deck(DeckError::Command(found)) => Some(found),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// The error as JSON: `kind` (the exit code's word), `message`, and the place where it has one.
     pub fn to_json(&self) -> serde_json::Value {
         let mut json = serde_json::json!({ "kind": self.exit_code().word(), "message": self.to_string() });
@@ -169,25 +181,23 @@ impl Error {
             Self::Scene(error) => error.location.as_ref(),
             Self::Plan(error) => error.location.as_ref(),
             Self::Lookup(error) => error.location.as_ref(),
-            Self::Deck(DeckError::Command(found)) => {
-                place(&found.source, found.line, found.column);
-                None
-            }
             _ => None,
         };
-        if let Some(location) = location {
-            if !location.in_override() {
-                place(location.file(), location.line(), location.column());
-            }
-            if !location.key().is_empty() {
-                json["key"] = location.key().into();
-            }
+        match (self.in_deck(), location) {
+            (Some(found), _) => place(&found.source, found.line, found.column),
+            (None, Some(at)) if !at.in_override() => place(at.file(), at.line(), at.column()),
+            (None, _) => {}
+        }
+        if let Some(location) = location.filter(|location| !location.key().is_empty()) {
+            json["key"] = location.key().into();
         }
         match self {
             Self::Scene(error) => json["message"] = error.problem.to_string().into(),
+            _ if self.in_deck().is_some() => {
+                json["message"] = self.in_deck().map(|found| found.problem.to_string()).into();
+            }
             Self::Plan(error) => json["message"] = error.problem.to_string().into(),
             Self::Lookup(error) => json["message"] = error.problem.to_string().into(),
-            Self::Deck(DeckError::Command(found)) => json["message"] = found.problem.to_string().into(),
             Self::Build(error) if !error.messages().is_empty() => json["compiler"] = error.messages().into(),
             _ => {}
         }
