@@ -214,6 +214,9 @@ template <class L, class... Rest> struct Entry<L, Rest...> {
         if (index != 0) {
             return Entry<Rest...>::fill(index - 1, law);
         }
+        if (!WEARLAW_COVERS(law, wl_law, extension)) { /* less than the 1.0 table */
+            return WL_FAILED;
+        }
         detail::fill<L>(law);
         return WL_OK;
     }

@@ -359,6 +359,9 @@ static void LAW_DESTROY(void *instance);
 
 static int32_t wl_point_fill(wl_law *law) {
     wl_law full;
+    if (law->struct_size < (char *)(&full.extension + 1) - (char *)&full) { /* less than the 1.0 table */
+        return WL_FAILED;
+    }
     memset(&full, 0, sizeof full);
     full.struct_size = law->struct_size;
     full.abi_minor = WL_ABI_MINOR;

@@ -25,8 +25,19 @@ const MAY_USE: [(&str, &[&str]); 14] = [
 ];
 
 const ALL_BUT_CLI: &[&str] = &[
-    "scene", "reference", "contact", "record", "law", "apdl", "integrator", "plan", "solve", "output", "templates",
-    "error", "exit_code",
+    "scene",
+    "reference",
+    "contact",
+    "record",
+    "law",
+    "apdl",
+    "integrator",
+    "plan",
+    "solve",
+    "output",
+    "templates",
+    "error",
+    "exit_code",
 ];
 
 const EVERYTHING: &[&str] = ALL_BUT_CLI;
@@ -144,8 +155,10 @@ fn modules_use_only_those_below_them() {
 #[test]
 fn every_module_has_a_place_in_the_order() {
     let lib = sources::text(Path::new("host/src/lib.rs")).expect("sources are UTF-8");
-    let mut declared: Vec<&str> =
-        lib.lines().filter_map(|line| line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';')).collect();
+    let mut declared: Vec<&str> = lib
+        .lines()
+        .filter_map(|line| line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';'))
+        .collect();
     let mut known: Vec<&str> = MAY_USE.iter().map(|(module, _)| *module).collect();
     declared.sort_unstable();
     known.sort_unstable();
@@ -167,7 +180,8 @@ fn an_import_against_the_order_is_seen_however_it_is_written() {
     assert_eq!(wrong("law/mod.rs", "use super::{plan, law};").len(), 1);
     assert_eq!(wrong("scene/reader.rs", "use crate::Error;").len(), 1);
     assert_eq!(wrong("new_one/mod.rs", "").len(), 1);
-    for text in ["use crate::scene::Scene;", "// use crate::cli::Console;", "use other_crate::cli;", "use super::cli;"] {
+    for text in ["use crate::scene::Scene;", "// use crate::cli::Console;", "use other_crate::cli;", "use super::cli;"]
+    {
         assert!(wrong("plan/needs.rs", text).is_empty(), "{text}");
     }
 }

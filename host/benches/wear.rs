@@ -1,1 +1,2 @@
+//! Whole runs.
 fn main() {}

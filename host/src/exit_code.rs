@@ -150,9 +150,8 @@ fn of_solving(error: &SolveError) -> ExitCode {
             AdvanceError::Evaluate(PointError::Law(error)) => of_evaluating(error),
             AdvanceError::Evaluate(PointError::Batch(_)) => ExitCode::ProgramFault,
             AdvanceError::Evaluate(PointError::Direction { by_law: false, .. }) => ExitCode::InputWrong,
-            AdvanceError::Evaluate(PointError::Direction { .. }) | AdvanceError::SmallestStep { .. } => {
-                ExitCode::LawFailed
-            }
+            AdvanceError::Evaluate(PointError::Direction { .. } | PointError::SmallestStep { .. })
+            | AdvanceError::SmallestStep { .. } => ExitCode::LawFailed,
             AdvanceError::Tolerance { .. } => ExitCode::NumbersFailed,
         },
         SolveError::Threads { .. } => ExitCode::ReadWriteFailed,

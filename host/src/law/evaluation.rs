@@ -232,7 +232,7 @@ pub enum EvaluateError {
         at: PointInputs,
     },
     /// The wear increment is negative, and the law claimed that it never is.
-    #[error("law `{law}` gave increment = {} at {at}, but claims that it is never negative", value.0)]
+    #[error("law `{law}` gave increment = {:e} at {at}, but claims that it is never negative", value.0)]
     Negative {
         /// The law.
         law: String,

@@ -100,7 +100,8 @@ fn find_near(name: &str, base: &Path, folders: &[PathBuf]) -> Result<LawSource, 
     if is_path(name) {
         // `scenes/law.so` reads better than `scenes/./law.so`.
         let path = base.join(name.strip_prefix("./").unwrap_or(name));
-        let source = path.is_dir() || is_manifest(&path) || Language::of(&path).is_some();
+        // A folder that is named like a library is a library gone wrong, not a crate.
+        let source = path.is_dir() && !is_library(&path) || is_manifest(&path) || Language::of(&path).is_some();
         return Ok(if source { LawSource::Source(path) } else { LawSource::Library(path) });
     }
     let mut installed = folders.iter().map(|folder| folder.join(library_name(name)));
@@ -127,13 +128,16 @@ fn library_name(law: &str) -> String {
 
 fn is_path(name: &str) -> bool {
     let path = Path::new(name);
-    let library = path.extension().is_some_and(|end| ["so", "dylib", "dll"].iter().any(|known| end == *known));
     name.contains(['/', std::path::MAIN_SEPARATOR])
-        || library
+        || is_library(path)
         || name.contains(".so.")
         || is_manifest(path)
         || Language::of(path).is_some()
         || [".", ".."].contains(&name)
+}
+
+fn is_library(path: &Path) -> bool {
+    path.extension().is_some_and(|end| ["so", "dylib", "dll"].iter().any(|known| end == *known))
 }
 
 fn is_manifest(path: &Path) -> bool {

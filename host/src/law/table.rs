@@ -108,6 +108,11 @@ impl BoundLaw {
             abi::WL_NO_MORE => return Answer::NoMore,
             other => return Answer::Status(other),
         }
+        let given = size_of::<abi::LawTable>() as i64;
+        if table.struct_size != given {
+            let error = DescribeError::TableSize { found: table.struct_size, expected: given };
+            return Answer::Malformed { name: readable(&table.name), error: Box::new(error) };
+        }
         let mut ask = table.describe.map(|function| {
             move |kind: i32, item: i64| {
                 let mut quantity = preset_quantity();

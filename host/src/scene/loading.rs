@@ -116,7 +116,11 @@ impl Loading {
             .transpose()?
             .unwrap_or_default();
         if steps.is_empty() && cycles.is_empty() && !history {
-            return Err(root.missing("step", "because nothing else says what happens"));
+            let reason = match setting.model {
+                ModelKind::Prescribed => "because there is no `contact.history` that says what happens",
+                _ => "because nothing else says what happens",
+            };
+            return Err(root.missing("step", reason));
         }
         let mut loading = Self {
             steps: Vec::new(),

@@ -6,11 +6,12 @@ use std::time::{Duration, Instant};
 use crate::integrator::quadrature::{self, Quadrature, Rate, Span};
 use crate::integrator::substeps::{self, Control, Memory, Substep};
 use crate::integrator::{AdvanceError, Reply, Tally};
-use crate::law::{Batch, Degree, Evaluation, Evaluator, OutputItem, Outputs, Values};
+use crate::law::{Batch, Degree, Evaluation, Evaluator, OutputItem, Outputs, PointInputs, Values};
 use crate::plan::{Advance, Sample};
 use crate::solve::PointError;
 use crate::solve::inputs::{Drive, Moment, Remembered, Rooms, Site};
 use crate::solve::source::{value, vector};
+use crate::solve::sums::Sums;
 
 /// Points of one chunk: its columns stay in the second cache while it is integrated. Fixed, so that bits do not
 /// depend on the number of threads.
@@ -53,32 +54,6 @@ pub(super) struct Done {
     pub(super) sums: Sums,
 }
 
-/// Sums over points at the end of a piece.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sums {
-    pub(super) load: f64,
-    pub(super) area: f64,
-    pub(super) volume: f64,
-    pub(super) max_pressure: f64,
-    pub(super) max_wear: f64,
-    pub(super) max_distance: f64,
-    pub(super) squared_wear: f64,
-    pub(super) contacts: u64,
-}
-
-impl Sums {
-    pub(super) fn add(&mut self, other: &Sums) {
-        self.load += other.load;
-        self.area += other.area;
-        self.volume += other.volume;
-        self.max_pressure = self.max_pressure.max(other.max_pressure);
-        self.max_wear = self.max_wear.max(other.max_wear);
-        self.max_distance = self.max_distance.max(other.max_distance);
-        self.squared_wear += other.squared_wear;
-        self.contacts += other.contacts;
-    }
-}
-
 /// The law at the points of one chunk over one piece.
 struct Caller<'c, 's> {
     site: &'c Site<'s>,
@@ -96,6 +71,8 @@ struct Caller<'c, 's> {
     sample: Sample,
     law_time: Duration,
     warnings: Vec<String>,
+    /// Where the law last wished for a shorter step, and its words.
+    cut: Option<(Option<PointInputs>, String)>,
 }
 
 impl Caller<'_, '_> {
@@ -106,7 +83,19 @@ impl Caller<'_, '_> {
         increment: &mut [f64],
         end: &mut [f64],
     ) -> Result<Reply, PointError> {
-        let Caller { site, drive, evaluator, range, rooms, direction, keep_direction, law_time, warnings, .. } = self;
+        let Caller {
+            site,
+            drive,
+            evaluator,
+            range,
+            rooms,
+            direction,
+            keep_direction,
+            law_time,
+            warnings,
+            cut: wished,
+            ..
+        } = self;
         let states = site.law.state.len();
         let turns = site.law.writes(OutputItem::Direction);
         if turns {
@@ -143,7 +132,11 @@ impl Caller<'_, '_> {
                             warnings.push(warning);
                         }
                     }
-                    Evaluation::CutStep { factor, .. } => cut = Some(cut.map_or(factor, |least| least.min(factor))),
+                    Evaluation::CutStep { factor, at, text } => {
+                        let at = at.map(|at| PointInputs { point: numbered(at.point, first, site), ..at });
+                        *wished = Some((at, text));
+                        cut = Some(cut.map_or(factor, |least| least.min(factor)));
+                    }
                 }
                 Ok::<(), PointError>(())
             })?;
@@ -162,10 +155,14 @@ impl Caller<'_, '_> {
 /// Names the point of a law's error by its number in the history.
 fn located(mut error: crate::law::EvaluateError, first: usize, site: &Site<'_>) -> PointError {
     if let Some(at) = error.at_mut() {
-        let id = site.id(first + at.point);
-        at.point = usize::try_from(id).unwrap_or(first + at.point);
+        at.point = numbered(at.point, first, site);
     }
     error.into()
+}
+
+/// The number in the history of a point that is the so-manieth behind `first`.
+fn numbered(point: usize, first: usize, site: &Site<'_>) -> usize {
+    usize::try_from(site.id(first + point)).unwrap_or(first + point)
 }
 
 /// Goes through runs of adjacent points that are all in contact, or all not; all at once for laws that want both.
@@ -225,7 +222,8 @@ fn turn(
         };
         let along = -(0..3).map(|k| d[k] * n[k]).sum::<f64>();
         if along <= 0.0 {
-            let point = usize::try_from(site.id(first + i)).unwrap_or(first + i);
+            // No negative zero in words.
+            let (point, along) = (numbered(i, first, site), along + 0.0);
             return Err(PointError::Direction { point, along, by_law: directions.is_some() });
         }
         *increment *= along;
@@ -281,6 +279,14 @@ impl Substep for Caller<'_, '_> {
     }
 }
 
+/// Says which law asked for too short a step, and where; other errors know.
+fn named(error: AdvanceError<PointError>, caller: &mut Caller<'_, '_>) -> AdvanceError<PointError> {
+    let AdvanceError::SmallestStep { time, asked, smallest } = error else { return error };
+    let (at, text) = caller.cut.take().unwrap_or_default();
+    let (law, at) = (caller.site.law.name.clone(), at.map(Box::new));
+    AdvanceError::Evaluate(PointError::SmallestStep { law, time, asked, smallest, at, text })
+}
+
 /// Advances one chunk over one piece.
 pub(super) fn advance(
     site: &Site<'_>,
@@ -313,15 +319,20 @@ pub(super) fn advance(
         sample,
         law_time: Duration::ZERO,
         warnings: Vec::new(),
+        cut: None,
     };
     let tally = match site.plan.advance {
-        Advance::Rate(planned) => rule.unwrap_or(planned).integrate(&mut caller, span, quadrature, slices.wear)?,
+        Advance::Rate(planned) => {
+            let result = rule.unwrap_or(planned).integrate(&mut caller, span, quadrature, slices.wear);
+            result.map_err(|error| named(error, &mut caller))?
+        }
         Advance::Substeps(..) => {
             memory.wear.clear();
             memory.wear.extend_from_slice(slices.wear);
             memory.state.clear();
             memory.state.extend_from_slice(slices.state);
-            let tally = control.advance(&mut caller, span, slices.hint, substeps, memory)?;
+            let result = control.advance(&mut caller, span, slices.hint, substeps, memory);
+            let tally = result.map_err(|error| named(error, &mut caller))?;
             slices.wear.copy_from_slice(&memory.wear);
             slices.state.copy_from_slice(&memory.state);
             tally

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::contact::prescribed::HistoryError;
 use crate::integrator::AdvanceError;
-use crate::law::{BatchError, EvaluateError};
+use crate::law::{BatchError, EvaluateError, PointInputs};
 
 /// Why a run ended before its time.
 #[derive(Debug, Error)]
@@ -62,6 +62,27 @@ pub enum PointError {
     /// The inputs could not be laid out: a fault of the program.
     #[error(transparent)]
     Batch(#[from] BatchError),
+    /// The law asked for a substep below the smallest one allowed.
+    #[error(
+        "law `{law}` asked for a substep shorter than {asked:e} at {}, time {time}, expected at least {}{}",
+        at.as_ref().map_or_else(|| "points it does not name".to_owned(), ToString::to_string),
+        least(*smallest),
+        if text.is_empty() { String::new() } else { format!(": {text}") }
+    )]
+    SmallestStep {
+        /// The law.
+        law: String,
+        /// Time at the start of the substep.
+        time: f64,
+        /// The substep that it wanted.
+        asked: f64,
+        /// The smallest one allowed; 0: whatever numbers can tell apart.
+        smallest: f64,
+        /// The first such point, if it is known.
+        at: Option<Box<PointInputs>>,
+        /// The law's own words; may be empty.
+        text: String,
+    },
     /// A direction that does not lead into the worn body.
     #[error(
         "the wear direction d of point {point} has -d.n = {along}, expected more than 0: material would grow or slide \
@@ -75,6 +96,13 @@ pub enum PointError {
         /// Whether the law gave the direction, and not the scene.
         by_law: bool,
     },
+}
+
+fn least(smallest: f64) -> String {
+    match smallest > 0.0 {
+        true => format!("the smallest step {smallest:e} (`integrator.smallest_step`)"),
+        false => "the smallest step that numbers can tell apart".to_owned(),
+    }
 }
 
 impl From<EvaluateError> for PointError {

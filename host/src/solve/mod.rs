@@ -14,6 +14,7 @@ mod reference;
 mod run;
 mod schedule;
 mod source;
+mod sums;
 
 pub use error::{PointError, SolveError};
 pub use reference::{ErrorNorm, ReferenceError, compare};

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use crate::integrator::{AdvanceError, Tally};
 use crate::law::Evaluator;
 use crate::solve::PointError;
-use crate::solve::chunk::{self, CHUNK, Done, Scratch, Slices, Sums};
+use crate::solve::chunk::{self, CHUNK, Done, Scratch, Slices};
+use crate::solve::sums::Sums;
 use crate::solve::inputs::{Drive, Site};
 use std::time::Duration;
 

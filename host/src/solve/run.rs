@@ -10,10 +10,11 @@ use crate::law::{Evaluator, OutputItem};
 use crate::plan::{Advance, FieldKind, Plan, ReferencePlan};
 use crate::record::{self, Cost, End, Event, HistoryRow, Line, MemoryLine, Nobody, Observer, Record, Wish};
 use crate::scene::Every;
-use crate::solve::chunk::{SCANNED_POINTS, Sums};
+use crate::solve::chunk::SCANNED_POINTS;
 use crate::solve::inputs::{Drive, Site};
 use crate::solve::progress::Arrays;
 use crate::solve::schedule::{self, Piece};
+use crate::solve::sums::Sums;
 use crate::solve::{ErrorNorm, SolveError, compare, fields, reference};
 
 /// Different instants between two rows at which points change sign that become events of their own; more of them are
@@ -233,15 +234,15 @@ impl<'p> Run<'p> {
     }
 
     fn steps(&self, going: &mut Going, observer: &mut (dyn Observer + Send), profiled: bool) -> End<SolveError> {
+        // One after another: a scene may have more cycles than a list of them has room for.
         let placed = match schedule::placed(self.plan, self.history.as_ref()) {
             Ok(placed) => placed,
             Err(error) => return End::Failed(error),
         };
-        let all: Vec<_> = placed.collect();
-        let (start, end) = (all.first().map_or(0.0, |p| p.start), all.last().map_or(0.0, |p| p.end));
+        let (start, end) = schedule::span(self.plan, self.history.as_ref());
         let units = fields::units(self.plan);
         let mut last: Option<Piece<'_>> = None;
-        for placed in all {
+        for placed in placed {
             for piece in self.pieces(placed) {
                 let site = self.site(&piece);
                 let drive = Drive::new(self.plan, self.history.as_ref(), &piece);

@@ -94,6 +94,18 @@ pub(super) fn placed<'p>(
     }))
 }
 
+/// Start and end of all load steps, the end up to rounding.
+pub(super) fn span(plan: &Plan, history: Option<&History>) -> (f64, f64) {
+    let times = history.map(History::times).unwrap_or_default();
+    let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
+    let lasts = |block: &crate::plan::Block| {
+        let stated: f64 = block.steps.iter().filter_map(|step| step.duration).sum();
+        let open = block.steps.iter().any(|step| step.duration.is_none());
+        block.count as f64 * if open { last - first } else { stated }
+    };
+    (first, first + plan.blocks.iter().map(lasts).sum::<f64>())
+}
+
 /// The pieces of one load step, without the crossings that lie inside them.
 pub(super) fn pieces<'p>(plan: &Plan, history: Option<&History>, points: usize, placed: Placed<'p>) -> Vec<Piece<'p>> {
     let (start, end) = (placed.start, placed.end);

@@ -85,6 +85,14 @@ pub enum DescribeError {
         /// Minor version of the law.
         law_minor: i64,
     },
+    /// A table whose size the law changed, which is the host's to state.
+    #[error("it set the `struct_size` of its table to {found}, expected the {expected} that the host gave it")]
+    TableSize {
+        /// What the law wrote.
+        found: i64,
+        /// Bytes that the host gave.
+        expected: i64,
+    },
     /// No evaluate function.
     #[error("it has no `evaluate` function")]
     NoEvaluate,
