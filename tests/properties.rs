@@ -132,7 +132,7 @@ proptest! {
 
     /// With lengths in 2^a, times in 2^b and masses in 2^c of a unit, all numbers scale by powers of two.
     #[test]
-    fn units_that_are_powers_of_two_leave_every_bit(given in given(true), a in -20..20, b in -20..20, c in -20..20) {
+    fn units_that_are_powers_of_two_leave_every_bit(given in given(true), a in -20_i32..20, b in -20_i32..20, c in -20_i32..20) {
         let two = |power: i32| f64::from(power).exp2();
         // Pressure: mass / (length time^2); the coefficient K/H is one over a pressure.
         let pressure = two(a + 2 * b - c);
