@@ -176,6 +176,19 @@ fn the_pin_on_disc_has_the_depth_that_is_known() {
     assert!(shown.stdout.contains("7.3227993251e-6") && shown.stdout.contains("run time"), "{}", shown.stdout);
 }
 
+#[test]
+fn shares_of_the_wear_are_told_for_both_bodies() {
+    let room = tempfile::tempdir().expect("a temporary folder");
+    let ran = run(&scenes().join("averaged.toml"), &room.path().join("out"), &[]);
+    for (body, share) in [("wearing_body", 0.6), ("counterbody", 0.4)] {
+        for quantity in ["max_wear_depth", "wear_volume"] {
+            let whole = ran.number(&format!("/result/{quantity}"));
+            assert!(whole > 0.0);
+            assert_eq!(ran.number(&format!("/result/{body}/{quantity}")), share * whole);
+        }
+    }
+}
+
 /// The sample deck and the table of the scene say the same, and so do their bits.
 #[test]
 fn a_deck_is_the_table_that_it_says() {

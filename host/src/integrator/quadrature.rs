@@ -9,6 +9,10 @@ use super::{AdvanceError, Reply, Rule, Tally, norm};
 
 /// Halvings after which a piece is as short as doubles can tell times apart.
 const MOST_HALVINGS: u32 = 48;
+/// Part of the tolerance that a panel may have by itself; the rest is shared by those that cannot keep to it.
+const OWN: f64 = 0.75;
+/// Part of what is left to share that one panel may take, so that there is always some left.
+const SHARE: f64 = 1.0 / 16.0;
 /// Below this relative difference two sums differ by rounding alone.
 const ROUNDING: f64 = 1e-14;
 
@@ -87,12 +91,17 @@ impl Quadrature {
     ) -> Result<Tally, AdvanceError<R::Error>> {
         let mut tally = Tally::default();
         let mut open = vec![(0.0, 1.0, 0)];
+        // Where a rate starts or ends like a power of time, the relative error of the panel at that end is the same
+        // however short it is; so panels may also share an error that is small against the piece, once its size is
+        // known from the first try.
+        let mut left = 0.0;
         while let Some((from, to, depth)) = open.pop() {
             let panel = Panel { span, from, to };
-            let verdict = self.try_panel(rate, &panel, room, &mut tally)?;
+            let verdict = self.try_panel(rate, &panel, room, &mut tally, SHARE * left)?;
             let halve = match verdict {
-                Verdict::Good(error) => {
+                Verdict::Good { error, shared } => {
                     tally.accept(panel.length(), error);
+                    left -= if shared { error } else { 0.0 };
                     for (total, part) in wear.iter_mut().zip(&room.high) {
                         *total += part;
                     }
@@ -111,6 +120,9 @@ impl Quadrature {
                     if depth >= MOST_HALVINGS {
                         let (time, step) = (panel.time(), panel.length());
                         return Err(AdvanceError::Tolerance { time, step, estimate, tolerance });
+                    }
+                    if depth == 0 {
+                        left = (1.0 - OWN) * tolerance * norm(room.high.iter().copied());
                     }
                     1
                 }
@@ -136,12 +148,13 @@ impl Quadrature {
         panel: &Panel,
         room: &mut Room,
         tally: &mut Tally,
+        share: f64,
     ) -> Result<Verdict, AdvanceError<R::Error>> {
-        let mut work = Work { rate, panel, tally };
+        let mut work = Work { rate, panel, tally, share };
         match self {
-            Quadrature::Exact => work.plain(&Rule::MIDPOINT, room, 0.0),
+            Quadrature::Exact => work.plain(&Rule::MIDPOINT, room),
             Quadrature::Fixed => work.embedded(&Rule::KRONROD_7, room, f64::INFINITY),
-            Quadrature::FixedRule(rule) => work.plain(rule, room, 0.0),
+            Quadrature::FixedRule(rule) => work.plain(rule, room),
             Quadrature::Adaptive(tolerance) => match work.embedded(&Rule::KRONROD_7, room, tolerance)? {
                 Verdict::Miss { .. } => work.embedded(&Rule::KRONROD_15, room, tolerance),
                 other => Ok(other),
@@ -152,9 +165,16 @@ impl Quadrature {
 }
 
 enum Verdict {
-    Good(f64),
+    /// The error, and whether it was allowed only as a share of the piece's.
+    Good {
+        error: f64,
+        shared: bool,
+    },
     Cut(f64),
-    Miss { estimate: f64, tolerance: f64 },
+    Miss {
+        estimate: f64,
+        tolerance: f64,
+    },
 }
 
 struct Panel {
@@ -180,6 +200,8 @@ struct Work<'w, R> {
     rate: &'w mut R,
     panel: &'w Panel,
     tally: &'w mut Tally,
+    /// Error that this panel may have of the piece's, whatever its own size.
+    share: f64,
 }
 
 impl<R: Rate> Work<'_, R> {
@@ -209,10 +231,10 @@ impl<R: Rate> Work<'_, R> {
         Ok(Reply::Good)
     }
 
-    fn plain(&mut self, rule: &Rule, room: &mut Room, error: f64) -> Result<Verdict, AdvanceError<R::Error>> {
+    fn plain(&mut self, rule: &Rule, room: &mut Room) -> Result<Verdict, AdvanceError<R::Error>> {
         let reply = self.sum(rule, self.panel, &mut room.now, &mut room.high, None)?;
         Ok(match reply {
-            Reply::Good => Verdict::Good(error),
+            Reply::Good => Verdict::Good { error: 0.0, shared: false },
             Reply::Cut(factor) => Verdict::Cut(factor),
         })
     }
@@ -223,7 +245,7 @@ impl<R: Rate> Work<'_, R> {
         if let Reply::Cut(factor) = self.sum(rule, self.panel, now, high, Some((low, weights)))? {
             return Ok(Verdict::Cut(factor));
         }
-        Ok(judge(high, low, tolerance))
+        Ok(judge(high, low, tolerance, self.share))
     }
 
     fn doubled(&mut self, rule: &Rule, room: &mut Room, tolerance: f64) -> Result<Verdict, AdvanceError<R::Error>> {
@@ -239,7 +261,7 @@ impl<R: Rate> Work<'_, R> {
             add(&mut total, high, 1.0, false);
         }
         high.copy_from_slice(&total);
-        Ok(judge(high, low, tolerance))
+        Ok(judge(high, low, tolerance, self.share))
     }
 }
 
@@ -254,13 +276,13 @@ fn add(total: &mut Vec<f64>, part: &[f64], weight: f64, first: bool) {
     }
 }
 
-fn judge(high: &[f64], low: &[f64], tolerance: f64) -> Verdict {
+fn judge(high: &[f64], low: &[f64], tolerance: f64, share: f64) -> Verdict {
     let size = norm(high.iter().copied());
     let difference = norm(high.iter().zip(low).map(|(a, b)| a - b));
     // Sums that differ by rounding alone say nothing about the rule.
-    let allowed = tolerance.max(ROUNDING) * size;
-    if difference <= allowed {
-        Verdict::Good(difference)
+    let allowed = (OWN * tolerance).max(ROUNDING) * size;
+    if difference <= allowed.max(share) {
+        Verdict::Good { error: difference, shared: difference > allowed }
     } else {
         Verdict::Miss { estimate: difference / size, tolerance }
     }

@@ -9,6 +9,10 @@ use crate::integrator::quadrature::Span;
 
 /// Relative length below which a piece cannot be cut further.
 const SHORTEST: f64 = 1e-13;
+/// Part of the tolerance that a substep may have by itself; the rest is shared by those that cannot keep to it.
+const OWN: f64 = 0.75;
+/// Part of what is left to share that one substep may take, so that there is always some left.
+const SHARE: f64 = 1.0 / 16.0;
 /// Below this relative difference two increments differ by rounding alone.
 const ROUNDING: f64 = 1e-14;
 
@@ -83,7 +87,11 @@ impl Trial {
 }
 
 enum Step {
-    Good { error: f64, relative: f64 },
+    /// Norms of the error and of the increment.
+    Good {
+        error: f64,
+        size: f64,
+    },
     Cut(f64),
 }
 
@@ -103,30 +111,34 @@ impl Control {
     ) -> Result<Tally, AdvanceError<S::Error>> {
         let mut tally = Tally::default();
         let mut at = 0.0;
-        let mut length = if span.length > 0.0 { (*hint / span.length).min(1.0) } else { 1.0 };
+        // Fixed substeps are the pieces; only within a piece does a cut live on.
+        let mut wish = if self == Control::Fixed { f64::INFINITY } else { *hint };
+        let mut budget = Budget::default();
         while at < 1.0 {
-            let mut to = at + length;
+            let asked = if span.length > 0.0 { wish / span.length } else { 1.0 };
             // A sliver at the end is not worth a substep of its own.
-            if to > 1.0 - 0.01 * length {
-                to = 1.0;
-            }
+            let to = if at + asked > 1.0 - 0.01 * asked.min(1.0) { 1.0 } else { at + asked };
             let step = (to - at) * span.length;
             let time = span.start + at * span.length;
             let factor = match self.try_step(law, (at, to), room, memory, &mut tally)? {
-                Step::Good { error, relative } => {
-                    let (allowed, growth) = self.judge(relative);
+                Step::Good { error, size } => {
+                    let (allowed, growth) = self.judge(error, size, budget.allowance(self, size, (at, to)));
                     if allowed {
                         room.commit(self, memory);
                         tally.accept(step, error);
+                        budget.spend(self, error, size);
+                        let next = growth * step;
                         // A piece that ends early says nothing against the longer substep of before.
-                        let next = growth * (to - at).max(if to == 1.0 { length } else { 0.0 });
-                        (at, length) = (to, next);
-                        *hint = next * span.length;
+                        let cut_short = to == 1.0 && wish.is_finite() && growth >= 1.0;
+                        wish = if cut_short { next.max(wish) } else { next };
+                        at = to;
+                        *hint = wish;
                         continue;
                     }
                     if to - at < SHORTEST {
                         let tolerance = if let Control::Tolerance(tolerance) = self { tolerance } else { 0.0 };
-                        return Err(AdvanceError::Tolerance { time, step, estimate: relative, tolerance });
+                        let estimate = error / size;
+                        return Err(AdvanceError::Tolerance { time, step, estimate, tolerance });
                     }
                     growth
                 }
@@ -139,18 +151,18 @@ impl Control {
                 }
             };
             tally.rejected += 1;
-            length = (to - at) * factor;
+            wish = step * factor;
         }
         Ok(tally)
     }
 
-    /// Whether a relative error is allowed, and the factor for the next substep (first-order control: what is
-    /// compared falls with the square of the substep).
-    fn judge(self, relative: f64) -> (bool, f64) {
+    /// Whether the error of an increment of `size` is allowed, by itself or by the piece's `allowance`, and the factor
+    /// for the next substep (first-order control: what is compared falls with the square of the substep).
+    fn judge(self, error: f64, size: f64, allowance: f64) -> (bool, f64) {
         let Control::Tolerance(tolerance) = self else { return (true, 1.0) };
-        let tolerance = tolerance.max(ROUNDING);
-        let wish = if relative > 0.0 { 0.9 * (tolerance / relative).sqrt() } else { 4.0 };
-        if relative <= tolerance { (true, wish.clamp(0.5, 4.0)) } else { (false, wish.clamp(0.1, 0.7)) }
+        let most = ((OWN * tolerance).max(ROUNDING) * size).max(allowance);
+        let wish = if error > 0.0 { 0.9 * (most / error).sqrt() } else { 4.0 };
+        if error <= most { (true, wish.clamp(0.5, 4.0)) } else { (false, wish.clamp(0.1, 0.7)) }
     }
 
     fn try_step<S: Substep>(
@@ -166,7 +178,7 @@ impl Control {
             return Ok(Step::Cut(factor));
         }
         if self == Control::Fixed {
-            return Ok(Step::Good { error: 0.0, relative: 0.0 });
+            return Ok(Step::Good { error: 0.0, size: 0.0 });
         }
         let middle = from + 0.5 * (to - from);
         if let Reply::Cut(factor) = first.take(law, (from, middle), memory, tally)? {
@@ -182,7 +194,40 @@ impl Control {
         sum.extend(first.increment.iter().zip(&second.increment).map(|(a, b)| a + b));
         let size = norm(sum.iter().copied());
         let error = norm(sum.iter().zip(&whole.increment).map(|(a, b)| a - b));
-        Ok(Step::Good { error, relative: if error == 0.0 { 0.0 } else { error / size } })
+        Ok(Step::Good { error, size })
+    }
+}
+
+/// The error that a piece may have as a whole, beside what its substeps may have by themselves.
+///
+/// Where a rate starts or ends like a power of time, the relative error of the substep at that end is the same however
+/// short it is; what counts is its size against the piece.
+#[derive(Default)]
+struct Budget {
+    /// Largest increment that was tried.
+    tried: f64,
+    /// Sum of the increments that were accepted.
+    done: f64,
+    spent: f64,
+}
+
+impl Budget {
+    /// What the substep from `from` to `to` with an increment of `size` may take: a part of what is left, so that
+    /// there is always some left.
+    fn allowance(&mut self, control: Control, size: f64, (from, to): (f64, f64)) -> f64 {
+        self.tried = self.tried.max(size);
+        let Control::Tolerance(tolerance) = control else { return 0.0 };
+        let at_this_rate = self.done + size * (1.0 - from) / (to - from);
+        SHARE * ((1.0 - OWN) * tolerance * self.tried.min(at_this_rate) - self.spent)
+    }
+
+    fn spend(&mut self, control: Control, error: f64, size: f64) {
+        self.done += size;
+        if let Control::Tolerance(tolerance) = control
+            && error > (OWN * tolerance).max(ROUNDING) * size
+        {
+            self.spent += error;
+        }
     }
 }
 
@@ -260,6 +305,52 @@ mod tests {
         assert!(tally.longest <= 0.25 * (1.0 + 1e-9) && tally.accepted >= 8 && tally.rejected > 0, "{tally:?}");
         let error = run(Control::Fixed, 0.25, 0.5).expect_err("a quarter is shorter than a half");
         assert!(matches!(error, AdvanceError::SmallestStep { .. }), "{error}");
+    }
+
+    /// w' = t^0.6: the relative error of the first substep does not fall with its length.
+    struct Root;
+
+    impl Substep for Root {
+        type Error = Infallible;
+        fn evaluate(
+            &mut self,
+            from: f64,
+            to: f64,
+            _: &Memory,
+            increment: &mut [f64],
+            _: &mut [f64],
+        ) -> Result<Reply, Infallible> {
+            increment.fill((to - from) * (0.5 * (from + to)).powf(0.6));
+            Ok(Reply::Good)
+        }
+    }
+
+    #[test]
+    fn a_rate_that_starts_like_a_power_of_time_meets_its_tolerance() {
+        for tolerance in [1e-3, 1e-6, 1e-8] {
+            let mut memory = Memory { wear: vec![0.0; 2], state: Vec::new() };
+            let span = Span { start: 0.0, length: 1.0, smallest: 0.0 };
+            let (mut hint, mut room) = (f64::INFINITY, Room::default());
+            let control = Control::Tolerance(tolerance);
+            let tally = control.advance(&mut Root, span, &mut hint, &mut room, &mut memory).expect("it converges");
+            let error = (1.6 * memory.wear[0] - 1.0).abs();
+            assert!(error < tolerance && tally.error < 1.5 * tolerance, "{tolerance:e}: {error:e} {tally:?}");
+        }
+    }
+
+    #[test]
+    fn a_short_piece_does_not_shorten_the_substeps_after_it() {
+        let mut memory = Memory { wear: vec![0.0; 2], state: vec![1.0; 2] };
+        let (mut hint, mut room) = (f64::INFINITY, Room::default());
+        let mut calls = |control: Control, length: f64| {
+            let span = Span { start: 0.0, length, smallest: 0.0 };
+            let mut law = Decay { length, longest: 10.0 };
+            let tally = control.advance(&mut law, span, &mut hint, &mut room, &mut memory);
+            tally.expect("it converges").law_calls
+        };
+        assert_eq!([1.0, 1e-6, 1.0].map(|length| calls(Control::Fixed, length)), [1, 1, 1]);
+        let [long, short, again] = [1.0, 1e-9, 1.0].map(|length| calls(Control::Tolerance(1e-2), length));
+        assert!(short == 3 && again <= long, "{long} {short} {again}");
     }
 
     #[test]

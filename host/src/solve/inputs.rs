@@ -166,6 +166,13 @@ impl<'h> Drive<'h> {
         room: &'b mut Vec<f64>,
         parts: &mut [Vec<f64>; 9],
     ) -> Values<'b> {
+        self.signed_traction(part, range, room, parts);
+        room.iter_mut().for_each(|traction| *traction = traction.max(0.0));
+        Values::PerPoint(room)
+    }
+
+    /// -n.sigma.n, negative where the surface is pulled.
+    fn signed_traction(&self, part: f64, range: Range<usize>, room: &mut Vec<f64>, parts: &mut [Vec<f64>; 9]) {
         let points = range.len();
         let [a, b, c, d, e, f, x, y, z] = parts;
         let s = [
@@ -186,9 +193,23 @@ impl<'h> Drive<'h> {
             let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k| value(&s[k], i));
             let [nx, ny, nz] = normal_at(&n, i);
             let along = nx * nx * xx + ny * ny * yy + nz * nz * zz + 2.0 * (nx * ny * xy + ny * nz * yz + nx * nz * xz);
-            (-along).max(0.0)
+            -along
         }));
-        Values::PerPoint(room)
+    }
+
+    /// Fractions of the piece at which the driving pressure of the points changes sign, at most `most` different
+    /// ones; none if there are more, or if normals turn, so that tractions are not linear.
+    pub(super) fn lift_offs(&self, plan: &Plan, points: usize, most: usize) -> Vec<f64> {
+        if plan.material.basis != Basis::NodalStress {
+            return self.pressure.crossings(0.0, most).unwrap_or_default();
+        }
+        if !self.normal.iter().all(Source::is_constant) {
+            return Vec::new();
+        }
+        let (mut from, mut to, mut parts) = (Vec::new(), Vec::new(), Default::default());
+        self.signed_traction(0.0, 0..points, &mut from, &mut parts);
+        self.signed_traction(1.0, 0..points, &mut to, &mut parts);
+        Source::Rows { from: &from, to: &to, a: 0.0, b: 1.0 }.crossings(0.0, most).unwrap_or_default()
     }
 
     /// Outward unit normals at a moment.

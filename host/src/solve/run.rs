@@ -223,7 +223,7 @@ impl<'p> Run<'p> {
         if self.points > SCANNED_POINTS {
             return Vec::new();
         }
-        let mut events = drive.pressure.crossings(0.0, MOST_EVENTS).unwrap_or_default();
+        let mut events = drive.lift_offs(self.plan, self.points, MOST_EVENTS);
         if self.plan.motion == Motion::Velocity {
             events.extend(drive.velocity.crossings(0.0, MOST_EVENTS).unwrap_or_default());
         }

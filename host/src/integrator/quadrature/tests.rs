@@ -101,9 +101,27 @@ fn a_wish_for_a_shorter_substep_is_honoured_or_refused() {
 
 #[test]
 fn a_rate_that_no_rule_resolves_is_an_error() {
-    let noise = |x: f64| if x.to_bits().is_multiple_of(2) { 1.0 } else { -1.0 };
+    let mixed = |x: f64| (x.to_bits() ^ (x.to_bits() >> 29)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let noise = |x: f64| if mixed(x) >> 63 == 0 { 1.0 } else { -1.0 };
     let mut rate = Given { rate: noise, longest: 10.0 };
     let span = Span { start: 0.0, length: 1.0, smallest: 0.0 };
     let error = Quadrature::Adaptive(1e-9).integrate(&mut rate, span, &mut Room::default(), &mut [0.0; 4]);
     assert!(matches!(error, Err(AdvanceError::Tolerance { .. })), "{error:?}");
+}
+
+/// Neither end of t^0.3 has a relative error that falls with the length of the panel there.
+#[test]
+fn rates_that_start_or_end_like_a_power_of_time_meet_their_tolerance() {
+    for tolerance in [1e-3, 1e-8, 1e-12] {
+        for power in [0.3, 1.6] {
+            let (start, first) = integrate(Quadrature::Adaptive(tolerance), |x| x.powf(power), 10.0);
+            let (end, last) = integrate(Quadrature::Adaptive(tolerance), |x| (1.0 - x).powf(power), 10.0);
+            let exact = 2.0 / (power + 1.0);
+            for (sum, tally) in [(start, first), (end, last)] {
+                let error = (sum / exact - 1.0).abs();
+                assert!(error < tolerance && tally.error < tolerance * exact * 30.0_f64.sqrt(), "{error:e} {tally:?}");
+                assert!(tally.accepted < 80, "{tally:?}");
+            }
+        }
+    }
 }
