@@ -2,13 +2,13 @@
 
 #[path = "support/npz.rs"]
 mod npz;
-#[path = "support/program.rs"]
-mod program;
+#[path = "support/scene_runs.rs"]
+mod scene_runs;
 
 use std::path::Path;
 
 use npz::Npz;
-use program::{run, scenes, wearlaw};
+use scene_runs::{run, scenes, wearlaw};
 use serde_json::Value;
 
 const MEGABYTE: f64 = 1e6;
