@@ -150,7 +150,7 @@ fn of_solving(error: &SolveError) -> ExitCode {
             AdvanceError::Evaluate(PointError::Law(error)) => of_evaluating(error),
             AdvanceError::Evaluate(PointError::Batch(_)) => ExitCode::ProgramFault,
             AdvanceError::Evaluate(PointError::Direction { by_law: false, .. }) => ExitCode::InputWrong,
-            AdvanceError::Evaluate(PointError::Direction { .. } | PointError::SmallestStep { .. })
+            AdvanceError::Evaluate(PointError::Direction { .. } | PointError::SmallestStep { .. } | PointError::NotLinear { .. })
             | AdvanceError::SmallestStep { .. } => ExitCode::LawFailed,
             AdvanceError::Tolerance { .. } => ExitCode::NumbersFailed,
         },

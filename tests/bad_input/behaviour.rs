@@ -114,3 +114,18 @@ fn failed_runs_on_two_threads_and_under_isolation_say_the_same() {
     assert_eq!(plain, error(&["--threads", "2"]));
     assert_eq!(plain, error(&["--isolate"]));
 }
+
+#[test]
+fn a_false_claim_to_be_linear_in_dt_is_refused_before_it_is_relied_on() {
+    let law = CLaw::with(
+        "#define CLAIMS WL_CLAIM_LINEAR_IN_DT\n",
+        "output->increment[i] = 1e-9 + at(view->slip, i) * at(view->slip, i);",
+    );
+    let room = Room::new();
+    let path = law.path();
+    let ended = room.run(&["run", "scene.toml", "--law", path.to_str().expect("a plain name"), "--set", "law.constants=[1]"]);
+    assert_eq!(ended.code, 3, "{} {}", ended.stdout, ended.stderr);
+    for word in ["claims to be linear in dt", "at point ", "half as long"] {
+        assert!(ended.stderr.contains(word), "{}", ended.stderr);
+    }
+}

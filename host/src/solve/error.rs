@@ -83,6 +83,23 @@ pub enum PointError {
         /// The law's own words; may be empty.
         text: String,
     },
+    /// A law that is not linear in dt although it claims to be.
+    #[error(
+        "law `{law}` claims to be linear in dt, but at point {point} it gave the increment {whole:e} for a substep of \
+         {dt:e} and {half:e} for one half as long, expected half of it"
+    )]
+    NotLinear {
+        /// The law.
+        law: String,
+        /// Number of the point.
+        point: i64,
+        /// The longer substep; time.
+        dt: f64,
+        /// Increment over it.
+        whole: f64,
+        /// Increment over half of it.
+        half: f64,
+    },
     /// A direction that does not lead into the worn body.
     #[error(
         "the wear direction d of point {point} has -d.n = {along}, expected more than 0: material would grow or slide \

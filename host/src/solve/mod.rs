@@ -5,6 +5,7 @@
 //! writes a file, and the same plan gives the same numbers to the bit, whatever the number of threads.
 
 mod chunk;
+mod claims;
 mod error;
 mod fields;
 mod inputs;

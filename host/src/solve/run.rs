@@ -15,7 +15,7 @@ use crate::solve::inputs::{Drive, Site};
 use crate::solve::progress::Arrays;
 use crate::solve::schedule::{self, Piece};
 use crate::solve::sums::Sums;
-use crate::solve::{ErrorNorm, SolveError, compare, fields, reference};
+use crate::solve::{ErrorNorm, SolveError, claims, compare, fields, reference};
 
 /// Different instants between two rows at which points change sign that become events of their own; more of them are
 /// left to the quadrature's halving.
@@ -253,7 +253,14 @@ impl<'p> Run<'p> {
                         going.start_pressure = fields::pressure(&site, &drive, 0.0, self.points);
                     }
                 }
-                let done = match going.arrays.advance(&site, &drive, self.evaluator) {
+                let tried = match self.plan.advance {
+                    Advance::Rate(_) if going.steps == 0 => {
+                        claims::linear_in_dt(&site, &drive, self.evaluator, self.points, &mut going.tally)
+                    }
+                    _ => Ok(()),
+                };
+                let advanced = tried.and_then(|()| going.arrays.advance(&site, &drive, self.evaluator));
+                let done = match advanced {
                     Ok(done) => done,
                     Err(source) => {
                         let (load_step, substep, time) = (piece.placed.number, piece.substep, piece.start);
