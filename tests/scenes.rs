@@ -162,10 +162,36 @@ fn check_entities(name: &str, words: &str) {
 }
 
 #[test]
+fn the_script_reproduces_the_committed_references() {
+    use std::io::Write;
+    let script = native::root().join("tests/make_scene_references.py");
+    let room = tempfile::tempdir().expect("a temporary folder");
+    for name in ["fretting_history.csv", "nodal_stress_history.csv"] {
+        std::fs::copy(scenes().join(name), room.path().join(name)).expect("a writable folder");
+    }
+    let Ok(made) = std::process::Command::new("python3").arg(&script).arg(room.path()).output() else {
+        // Straight to the stream: the harness keeps what `println!` writes when a test passes.
+        let words = "NOT RUN: the_script_reproduces_the_committed_references: python3 not found";
+        writeln!(std::io::stdout(), "{words}").expect("stdout is open");
+        return;
+    };
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let mut compared = 0;
+    for entry in std::fs::read_dir(room.path()).expect("a readable folder") {
+        let name = entry.expect("a readable folder").file_name();
+        if name.to_str().is_some_and(|name| name.ends_with("_reference.csv")) {
+            assert!(read(&room.path().join(&name)) == read(&scenes().join(&name)), "{}", name.display());
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 7);
+}
+
+#[test]
 fn the_pin_on_disc_has_the_depth_that_is_known() {
     let room = tempfile::tempdir().expect("a temporary folder");
     let ran = run(&scenes().join("pin_on_disc.toml"), &room.path().join("out"), &[]);
-    let (depth, known) = (ran.number("/result/max_wear_depth"), 7.3227993251121237e-6);
+    let (depth, known) = (ran.number("/result/max_wear_depth"), 7.322_799_325_112_124e-6);
     assert!((depth / known - 1.0).abs() < 1e-10, "{depth:e}");
     let shown = wearlaw(&[
         "run".as_ref(),
@@ -249,9 +275,9 @@ fn embedded_loaded_and_isolated_archard_give_the_same_bits() {
     }
 }
 
-/// A pattern of pressures and velocities over 30001 points and three times, some of them out of contact.
+/// A pattern of pressures and velocities over 20501 points and three times, some of them out of contact.
 fn wide_scene(folder: &Path, more: &str) -> PathBuf {
-    let points = 30_001;
+    let points = 20_501;
     let wave = |i: usize, k: usize| ((i * 37 + k * 11) % 101) as f64;
     Npz::create(&folder.join("wide.npz"))
         .array("time", &[3], [0.0, 0.5, 2.0].into_iter())
@@ -261,7 +287,7 @@ fn wide_scene(folder: &Path, more: &str) -> PathBuf {
         .finish();
     let scene = format!(
         "[law]\nuse = \"archard\"\n{more}\n[contact]\nmodel = \"prescribed\"\nhistory = \"wide.npz\"\n\
-         [integrator]\ntolerance = 1e-3\n[output]\nfields = [\"pressure\", \"wear\", \"sliding_distance\"]\n\
+         [integrator]\ntolerance = 1e-2\n[output]\nfields = [\"pressure\", \"wear\", \"sliding_distance\"]\n\
          formats = [\"npz\"]\nevery = 11\n"
     );
     let path = folder.join("wide.toml");
