@@ -110,3 +110,11 @@ fn a_file_or_the_scene_itself_can_be_the_reference() {
     by_file.file("r.csv", &format!("# depths\npoint,wear\n9,{:e}\n4,{:e}\n", 2.0 * exact, exact));
     near(by_file.solve(&archard()).error.expect("a reference was named").value, truth.abs(), 1e-9);
 }
+
+#[test]
+fn the_first_round_of_a_cycle_ramps_from_what_came_before_it() {
+    // One second each at 5, from 5 to 1, at 1 and at 1 MPa.
+    let steps = "[[step]]\nduration = 1\npressure = 5e6\nvelocity = 1\n[[cycle]]\ncount = 3\n\
+                 [[cycle.step]]\nduration = 1\npressure = 1e6\nvelocity = 1\nramp = [\"pressure\"]\n";
+    near(depth(LINEAR, steps), 1e-13 * (5e6 + 3e6 + 1e6 + 1e6), 1e-12);
+}

@@ -281,8 +281,9 @@ fn judge(high: &[f64], low: &[f64], tolerance: f64, share: f64) -> Verdict {
     let difference = norm(high.iter().zip(low).map(|(a, b)| a - b));
     // Sums that differ by rounding alone say nothing about the rule.
     let allowed = (OWN * tolerance).max(ROUNDING) * size;
-    if difference <= allowed.max(share) {
-        Verdict::Good { error: difference, shared: difference > allowed }
+    // Without a tolerance anything will do, also where nothing wears and infinity times zero is no number.
+    if tolerance == f64::INFINITY || difference <= allowed.max(share) {
+        Verdict::Good { error: difference, shared: tolerance.is_finite() && difference > allowed }
     } else {
         Verdict::Miss { estimate: difference / size, tolerance }
     }

@@ -42,7 +42,9 @@ pub struct Block {
     pub count: u64,
     /// Whether this is a `[[cycle]]`.
     pub cycle: bool,
-    /// The steps.
+    /// The first step of the first round: its ramps start from what came before the block.
+    pub entry: LoadStep,
+    /// The steps of every round; ramps of the first start from the last.
     pub steps: Vec<LoadStep>,
 }
 
@@ -67,13 +69,13 @@ pub(super) fn blocks(scene: &Scene, header: Option<&Header>) -> Result<Vec<Block
     let mut blocks = Vec::new();
     let mut before = Step::default();
     if !scene.steps.is_empty() || scene.cycles.is_empty() {
-        let steps = lower(scene, "step", &scene.steps, &mut before, false)?;
-        blocks.push(Block { count: 1, cycle: false, steps });
+        let (entry, steps) = lower(scene, "step", &scene.steps, &mut before)?;
+        blocks.push(Block { count: 1, cycle: false, entry, steps });
     }
     for (index, cycle) in scene.cycles.iter().enumerate() {
         let base = format!("cycle.{index}.step");
-        let steps = lower(scene, &base, &cycle.steps, &mut before, cycle.count > 1)?;
-        blocks.push(Block { count: cycle.count, cycle: true, steps });
+        let (entry, steps) = lower(scene, &base, &cycle.steps, &mut before)?;
+        blocks.push(Block { count: cycle.count, cycle: true, entry, steps });
     }
     Ok(blocks)
 }
@@ -100,39 +102,41 @@ fn given_once(scene: &Scene, header: &Header, base: &str, step: &Step) -> Result
     Ok(())
 }
 
+/// The first step as it follows what came before, and all steps as they follow each other.
 fn lower(
     scene: &Scene,
     base: &str,
     steps: &[Step],
     before: &mut Step,
-    repeats: bool,
-) -> Result<Vec<LoadStep>, PlanError> {
-    if steps.is_empty() {
-        return Ok(vec![LoadStep::default()]);
+) -> Result<(LoadStep, Vec<LoadStep>), PlanError> {
+    let file = |step: &Step| matches!(step.sliding, Some(Sliding::Velocity { velocity: Field::File(_) }));
+    if let Some(index) = steps.iter().position(file) {
+        return Err(scene.error_at(&format!("{base}.{index}.velocity"), PlanProblem::VelocityFile));
     }
-    let mut lowered = Vec::with_capacity(steps.len());
-    for (index, step) in steps.iter().enumerate() {
-        if matches!(step.sliding, Some(Sliding::Velocity { velocity: Field::File(_) })) {
-            return Err(scene.error_at(&format!("{base}.{index}.velocity"), PlanProblem::VelocityFile));
-        }
-        // The first step of a repeating block follows its last one, from the second round on; a ramp there starts
-        // where every round starts.
-        let previous = if index == 0 && repeats { steps.last().unwrap_or(step) } else { &*before };
-        let linear = |quantity: Quantity| {
-            let to = value(step, quantity)?;
-            let ramped = step.ramp.contains(&quantity);
-            Some(Linear { from: if ramped { value(previous, quantity).unwrap_or(0.0) } else { to }, to })
-        };
-        lowered.push(LoadStep {
-            duration: step.duration,
-            pressure: linear(Quantity::Pressure),
-            velocity: linear(Quantity::Velocity),
-            temperature: linear(Quantity::Temperature),
-            friction: linear(Quantity::Friction),
-        });
-        *before = step.clone();
+    let (Some(first), Some(last)) = (steps.first(), steps.last()) else {
+        return Ok((LoadStep::default(), vec![LoadStep::default()]));
+    };
+    let entry = one(first, before);
+    let previous = std::iter::once(last).chain(steps);
+    let lowered = steps.iter().zip(previous).map(|(step, previous)| one(step, previous)).collect();
+    *before = last.clone();
+    Ok((entry, lowered))
+}
+
+/// One step after another; a ramp without a start begins at 0.
+fn one(step: &Step, previous: &Step) -> LoadStep {
+    let linear = |quantity: Quantity| {
+        let to = value(step, quantity)?;
+        let ramped = step.ramp.contains(&quantity);
+        Some(Linear { from: if ramped { value(previous, quantity).unwrap_or(0.0) } else { to }, to })
+    };
+    LoadStep {
+        duration: step.duration,
+        pressure: linear(Quantity::Pressure),
+        velocity: linear(Quantity::Velocity),
+        temperature: linear(Quantity::Temperature),
+        friction: linear(Quantity::Friction),
     }
-    Ok(lowered)
 }
 
 fn value(step: &Step, quantity: Quantity) -> Option<f64> {

@@ -143,7 +143,7 @@ impl Setting<'_> {
         if self.has(Column::Area) {
             columns.add(Column::Area);
         } else {
-            let why = "the history has no column `area`";
+            let why = "no column `area` in a history says how large the points are";
             skipped.push(Skipped::new("load, contact area and wear volume", why));
         }
         self.coordinates(fields, &mut columns, skipped);

@@ -16,7 +16,7 @@ pub type SceneError = Located<Problem>;
 #[non_exhaustive]
 pub enum Problem {
     /// The file could not be read.
-    #[error("could not read the scene {path}: {kind}")]
+    #[error("could not read the scene {path}: {}", plain(*kind))]
     Read {
         /// The file as it was named.
         path: PathBuf,
@@ -344,4 +344,12 @@ pub enum Problem {
         /// What that value is.
         found: String,
     },
+}
+
+/// What the system said, in the words of a shell.
+fn plain(kind: std::io::ErrorKind) -> String {
+    match kind {
+        std::io::ErrorKind::NotFound => "no such file".to_owned(),
+        other => other.to_string(),
+    }
 }

@@ -272,7 +272,8 @@ impl Step {
             Quantity::Load => matches!(self.drive, Some(Drive::Load(_))),
             Quantity::Approach => matches!(self.drive, Some(Drive::Approach(_))),
             Quantity::Pressure => matches!(self.drive, Some(Drive::Pressure(_))),
-            Quantity::Velocity => matches!(self.sliding, Some(Sliding::Velocity { .. })),
+            // A stroke is a speed too.
+            Quantity::Velocity => self.sliding.is_some(),
             Quantity::Temperature => self.temperature.is_some(),
             Quantity::Friction => self.friction.is_some(),
         }

@@ -385,7 +385,7 @@ pub(super) fn measure(
 ) -> Sums {
     let Scratch { pressure, parts, areas, .. } = scratch;
     let pressure = drive.driving_pressure(site.plan, part, range.clone(), (pressure, parts));
-    let areas = drive.areas(range.clone(), areas);
+    let areas = drive.areas(part, range.clone(), areas);
     let mut sums = Sums::default();
     if let (Values::Uniform(p), Values::Absent) = (&pressure, &areas) {
         sums.max_pressure = p.max(0.0);
@@ -422,7 +422,7 @@ pub(super) fn contact_sums(
 ) -> (f64, f64) {
     let Scratch { pressure, parts, areas, .. } = scratch;
     let pressure = drive.driving_pressure(site.plan, 0.5, range.clone(), (pressure, parts));
-    let areas = drive.areas(range.clone(), areas);
+    let areas = drive.areas(0.5, range.clone(), areas);
     let mut sums = (0.0, 0.0);
     for (i, increment) in increment.iter().enumerate() {
         if value(&pressure, i) > 0.0 {

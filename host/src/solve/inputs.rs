@@ -16,7 +16,7 @@ pub(super) struct Drive<'h> {
     pub(super) velocity: Source<'h>,
     slip: [Rate<'h>; 3],
     pub(super) temperature: Source<'h>,
-    shear: Source<'h>,
+    pub(super) shear: Source<'h>,
     friction: Source<'h>,
     normal: [Source<'h>; 3],
     stress: [Source<'h>; 6],
@@ -133,12 +133,12 @@ impl<'h> Drive<'h> {
         }
     }
 
-    /// Areas of the points.
-    pub(super) fn areas<'b>(&self, range: Range<usize>, room: &'b mut Vec<f64>) -> Values<'b>
+    /// Areas of the points at a fraction of the piece.
+    pub(super) fn areas<'b>(&self, part: f64, range: Range<usize>, room: &'b mut Vec<f64>) -> Values<'b>
     where
         'h: 'b,
     {
-        self.area.at(1.0, range, room)
+        self.area.at(part, range, room)
     }
 
     /// The contact pressure at a moment, or the normal traction of nodal stresses that stands for it.

@@ -227,6 +227,7 @@ impl<'p> Run<'p> {
         if self.plan.motion == Motion::Velocity {
             events.extend(drive.velocity.crossings(0.0, MOST_EVENTS).unwrap_or_default());
         }
+        events.extend(drive.shear.crossings(0.0, MOST_EVENTS).unwrap_or_default());
         for level in self.plan.material.constants.break_temperatures() {
             events.extend(drive.temperature.crossings(*level, MOST_EVENTS).unwrap_or_default());
         }

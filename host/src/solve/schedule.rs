@@ -74,13 +74,14 @@ pub(super) fn placed<'p>(
         number += block.steps.len() as i64;
         let from = cycle;
         cycle += if block.cycle { block.count as i64 } else { 0 };
-        (0..block.count as i64).map(move |round| (block, base, if block.cycle { from + round + 1 } else { 0 }))
+        (0..block.count as i64).map(move |round| (block, base, round, if block.cycle { from + round + 1 } else { 0 }))
     });
-    Ok(rounds.flat_map(move |(block, base, cycle)| {
+    Ok(rounds.flat_map(move |(block, base, round, cycle)| {
         let offset = if repeats && !one_time { clock - first } else { 0.0 };
         let stated: f64 = block.steps.iter().filter_map(|step| step.duration).sum();
         let mut here = Vec::with_capacity(block.steps.len());
         for (index, step) in block.steps.iter().enumerate() {
+            let step = if round == 0 && index == 0 { &block.entry } else { step };
             let start = clock;
             let duration = step.duration.unwrap_or(covered - stated);
             let mut end = start + duration;

@@ -16,7 +16,7 @@ module law
     summary='Archard wear that levels off at high pressure', reads=ior(WL_FIELD_PRESSURE, WL_FIELD_SLIP), &
     claims=WL_CLAIM_DETERMINISTIC + WL_CLAIM_NON_NEGATIVE + WL_CLAIM_LINEAR_IN_DT + WL_CLAIM_ZERO_WITHOUT_PRESSURE + &
       WL_CLAIM_ZERO_WITHOUT_SLIP + WL_CLAIM_FRAME_INDIFFERENT, flags=WL_FLAG_KINKS)
-  ! Every constant: kind, name, unit, minimum, maximum, default, flags, what it is.
+  ! Every constant: kind, name, unit, minimum, maximum, default; then by keyword what it is and its flags.
   type(wl_declared), parameter :: quantities(2) = [ &
     wl_declared(WL_KIND_CONSTANT, 'k', wl_per_pascal, 0.0d0, wl_infinity, wl_required, summary='specific wear rate'), &
     wl_declared(WL_KIND_CONSTANT, 'p_half', wl_pascal, 0.0d0, wl_infinity, 1.0d9, &
