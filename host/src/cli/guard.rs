@@ -10,7 +10,9 @@ static FIRST: Mutex<Option<String>> = Mutex::new(None);
 /// Runs `work`; a panic in it becomes [`Error::Fault`] with its place, and prints nothing itself.
 pub(super) fn guarded<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     std::panic::set_hook(Box::new(|panic| {
-        let words = panic.payload_as_str().unwrap_or("no words");
+        let payload = panic.payload();
+        let words = payload.downcast_ref::<&str>().copied();
+        let words = words.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no words");
         let what = match panic.location() {
             Some(place) => format!("{words}, at {}:{}", place.file(), place.line()),
             None => words.to_owned(),

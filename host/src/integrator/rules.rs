@@ -28,7 +28,7 @@ impl Rule {
     /// Two-stage SDIRK of order 2, gamma = 1 - 1 / sqrt 2 (Alexander, 1977), on a rate that depends on time alone.
     pub const SDIRK2: Rule = Rule {
         nodes: &[0.292_893_218_813_452_4, 1.0],
-        weights: &[0.707_106_781_186_547_6, 0.292_893_218_813_452_4],
+        weights: &[std::f64::consts::FRAC_1_SQRT_2, 0.292_893_218_813_452_4],
         embedded: None,
     };
     /// Gauss rule with 3 nodes inside its Kronrod extension with 7 (Kronrod, 1965).

@@ -101,7 +101,7 @@ fn a_wish_for_a_shorter_substep_is_honoured_or_refused() {
 
 #[test]
 fn a_rate_that_no_rule_resolves_is_an_error() {
-    let noise = |x: f64| if x.to_bits() % 2 == 0 { 1.0 } else { -1.0 };
+    let noise = |x: f64| if x.to_bits().is_multiple_of(2) { 1.0 } else { -1.0 };
     let mut rate = Given { rate: noise, longest: 10.0 };
     let span = Span { start: 0.0, length: 1.0, smallest: 0.0 };
     let error = Quadrature::Adaptive(1e-9).integrate(&mut rate, span, &mut Room::default(), &mut [0.0; 4]);

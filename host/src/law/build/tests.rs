@@ -150,7 +150,7 @@ fn fortran_is_called_as_it_should_be() {
     let own = built
         .commands
         .iter()
-        .position(|line| line.contains("law.f90") && line.contains("-c "))
+        .position(|line| line.contains("/law.f90") && line.contains("-c "))
         .unwrap();
     let module = super::CARRIED
         .iter()
