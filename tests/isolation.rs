@@ -106,7 +106,7 @@ fn a_crash_names_the_call_the_points_and_the_inputs() {
     let said = loss("if (p == 70001) *(volatile int *)8 = 1;", 100_000);
     assert_eq!(
         said,
-        "law `small` crashed (signal 11, SIGSEGV, it touched memory that is not its own) in call 2, points 69632 to \
+        "law `small` crashed (signal 11, SIGSEGV, it touched memory that is not its own) in call 2, points 65536 to \
          73727, at point 70000 (pressure = 7.0001e4, slip = 5e-1, K = 2e0)"
     );
 }

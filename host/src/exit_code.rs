@@ -146,11 +146,11 @@ fn of_solving(error: &SolveError) -> ExitCode {
     match error {
         SolveError::History(error) => of_history(error),
         SolveError::NoDuration { .. } | SolveError::HistoryTooShort { .. } => ExitCode::InputWrong,
-        SolveError::Advance { source, .. } => match source {
+        SolveError::Advance { source, .. } => match &**source {
             AdvanceError::Evaluate(PointError::Law(error)) => of_evaluating(error),
             AdvanceError::Evaluate(PointError::Batch(_)) => ExitCode::ProgramFault,
             AdvanceError::Evaluate(PointError::Direction { by_law: false, .. }) => ExitCode::InputWrong,
-            AdvanceError::Evaluate(PointError::Direction { .. } | PointError::SmallestStep { .. } | PointError::NotLinear { .. })
+            AdvanceError::Evaluate(PointError::Direction { .. } | PointError::SmallestStep(_) | PointError::NotLinear { .. })
             | AdvanceError::SmallestStep { .. } => ExitCode::LawFailed,
             AdvanceError::Tolerance { .. } => ExitCode::NumbersFailed,
         },

@@ -23,6 +23,7 @@ pub(super) fn sweep(values: &[f64]) -> Sweep {
     }
 }
 
+#[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN is not finite; it is not negative too")]
 fn exact(values: &[f64]) -> Sweep {
     values.iter().fold(
         Sweep {

@@ -118,7 +118,7 @@ fn a_bad_status_names_the_point_and_what_was_given_there() {
         (
             "negative",
             format!(
-                "law `linear` gave increment = -1.5 at {inputs}, but claims that it is never negative"
+                "law `linear` gave increment = -1.5e0 at {inputs}, but claims that it is never negative"
             ),
         ),
         (

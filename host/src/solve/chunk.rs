@@ -8,10 +8,10 @@ use crate::integrator::substeps::{self, Control, Memory, Substep};
 use crate::integrator::{AdvanceError, Reply, Tally};
 use crate::law::{Batch, Degree, Evaluation, Evaluator, OutputItem, Outputs, PointInputs, Values};
 use crate::plan::{Advance, Sample};
-use crate::solve::PointError;
 use crate::solve::inputs::{Drive, Moment, Remembered, Rooms, Site};
 use crate::solve::source::{value, vector};
 use crate::solve::sums::Sums;
+use crate::solve::{PointError, ShortStep};
 
 /// Points of one chunk: its columns stay in the second cache while it is integrated. Fixed, so that bits do not
 /// depend on the number of threads.
@@ -283,8 +283,8 @@ impl Substep for Caller<'_, '_> {
 fn named(error: AdvanceError<PointError>, caller: &mut Caller<'_, '_>) -> AdvanceError<PointError> {
     let AdvanceError::SmallestStep { time, asked, smallest } = error else { return error };
     let (at, text) = caller.cut.take().unwrap_or_default();
-    let (law, at) = (caller.site.law.name.clone(), at.map(Box::new));
-    AdvanceError::Evaluate(PointError::SmallestStep { law, time, asked, smallest, at, text })
+    let law = caller.site.law.name.clone();
+    AdvanceError::Evaluate(PointError::SmallestStep(Box::new(ShortStep { law, time, asked, smallest, at, text })))
 }
 
 /// Advances one chunk over one piece.

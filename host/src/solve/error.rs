@@ -38,7 +38,7 @@ pub enum SolveError {
         /// Time at the start of the substep.
         time: f64,
         /// What happened.
-        source: AdvanceError<PointError>,
+        source: Box<AdvanceError<PointError>>,
     },
     /// Threads could not be started.
     #[error("could not start {threads} threads: {text}")]
@@ -63,26 +63,8 @@ pub enum PointError {
     #[error(transparent)]
     Batch(#[from] BatchError),
     /// The law asked for a substep below the smallest one allowed.
-    #[error(
-        "law `{law}` asked for a substep shorter than {asked:e} at {}, time {time}, expected at least {}{}",
-        at.as_ref().map_or_else(|| "points it does not name".to_owned(), ToString::to_string),
-        least(*smallest),
-        if text.is_empty() { String::new() } else { format!(": {text}") }
-    )]
-    SmallestStep {
-        /// The law.
-        law: String,
-        /// Time at the start of the substep.
-        time: f64,
-        /// The substep that it wanted.
-        asked: f64,
-        /// The smallest one allowed; 0: whatever numbers can tell apart.
-        smallest: f64,
-        /// The first such point, if it is known.
-        at: Option<Box<PointInputs>>,
-        /// The law's own words; may be empty.
-        text: String,
-    },
+    #[error(transparent)]
+    SmallestStep(Box<ShortStep>),
     /// A law that is not linear in dt although it claims to be.
     #[error(
         "law `{law}` claims to be linear in dt, but at point {point} it gave the increment {whole:e} for a substep of \
@@ -113,6 +95,29 @@ pub enum PointError {
         /// Whether the law gave the direction, and not the scene.
         by_law: bool,
     },
+}
+
+/// A substep shorter than the smallest one allowed.
+#[derive(Debug, Error)]
+#[error(
+    "law `{law}` asked for a substep shorter than {asked:e} at {}, time {time}, expected at least {}{}",
+    at.as_ref().map_or_else(|| "points it does not name".to_owned(), ToString::to_string),
+    least(*smallest),
+    if text.is_empty() { String::new() } else { format!(": {text}") }
+)]
+pub struct ShortStep {
+    /// The law.
+    pub law: String,
+    /// Time at the start of the substep.
+    pub time: f64,
+    /// The substep that it wanted.
+    pub asked: f64,
+    /// The smallest one allowed; 0: whatever numbers can tell apart.
+    pub smallest: f64,
+    /// The first such point, if it is known.
+    pub at: Option<PointInputs>,
+    /// The law's own words; may be empty.
+    pub text: String,
 }
 
 fn least(smallest: f64) -> String {

@@ -17,6 +17,6 @@ mod schedule;
 mod source;
 mod sums;
 
-pub use error::{PointError, SolveError};
+pub use error::{PointError, ShortStep, SolveError};
 pub use reference::{ErrorNorm, ReferenceError, compare};
 pub use run::Run;

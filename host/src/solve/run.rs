@@ -265,6 +265,7 @@ impl<'p> Run<'p> {
                     Ok(done) => done,
                     Err(source) => {
                         let (load_step, substep, time) = (piece.placed.number, piece.substep, piece.start);
+                        let source = Box::new(source);
                         self.finish(going, last.as_ref(), observer, &units, profiled);
                         return End::Failed(SolveError::Advance { load_step, substep, time, source });
                     }
