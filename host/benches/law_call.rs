@@ -168,7 +168,9 @@ fn memory(archard: &LawInstance) {
 /// Whole pieces of a run against the triad.
 fn run(archard: &LawInstance, folder: &std::path::Path) {
     let (sizes, steps): (&[usize], usize) = if is_measured() { (&[1_000_000, 20_000_000], 31) } else { (&[20_000], 2) };
-    println!("\na substep of solve::Run on a history of one time (linear archard; pressure and velocity in, depth in and");
+    println!(
+        "\na substep of solve::Run on a history of one time (linear archard; pressure and velocity in, depth in and"
+    );
     println!("out, and the sums of the history's row) against a triad on the same threads; both move 32 B per point:");
     println!("a triad reads what it is about to overwrite, as caches do, and a substep reads it to add to it");
     println!(

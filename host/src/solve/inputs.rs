@@ -8,6 +8,7 @@ use crate::plan::{Linear, Plan};
 use crate::scene::Basis;
 use crate::solve::schedule::Piece;
 use crate::solve::source::{Rate, Source, map, value, vector, vectors, zip};
+use crate::solve::sweeps::no_sign;
 
 /// The default outward normal of the wearing body, +z.
 pub(super) const UP: [f64; 3] = [0.0, 0.0, 1.0];
@@ -134,6 +135,16 @@ impl<'h> Drive<'h> {
             Motion::None => true,
             Motion::Velocity => !matches!(self.velocity, Source::Rows { .. }),
             Motion::Slip | Motion::SlipVector => self.slip.iter().all(Rate::is_uniform),
+        }
+    }
+
+    /// The velocities of points that keep them over the piece.
+    pub(super) fn lasting_velocities(&self, range: Range<usize>) -> Option<&'h [f64]> {
+        match self.velocity {
+            Source::Rows { from, to, .. } if self.motion == Motion::Velocity && std::ptr::eq(from, to) => {
+                Some(&from[range])
+            }
+            _ => None,
         }
     }
 
@@ -322,7 +333,10 @@ impl<'h> Drive<'h> {
         let speed = match self.motion {
             _ if !moves => Values::Absent,
             Motion::SlipVector => speed_of(&velocity, points, &mut rooms.speed),
-            _ => map(&velocity[0], &mut rooms.speed, f64::abs),
+            _ => match velocity[0] {
+                Values::PerPoint(all) if no_sign(all) => velocity[0],
+                _ => map(&velocity[0], &mut rooms.speed, f64::abs),
+            },
         };
         builder = builder.field(Field::Velocity, speed);
         let slip = if any(&[Field::Slip, Field::FrictionWork]) {

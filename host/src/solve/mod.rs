@@ -13,6 +13,7 @@ mod reference;
 mod run;
 mod schedule;
 mod source;
+mod sweeps;
 
 pub use error::{PointError, SolveError};
 pub use reference::{ErrorNorm, ReferenceError, compare};
