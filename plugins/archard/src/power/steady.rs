@@ -118,5 +118,5 @@ fn steady_avx2(p: &[f64], v: &[f64], k: f64, h: f64, dt: f64, out: &mut [f64]) -
 #[cold]
 fn some_unusual(p: &[f64]) -> bool {
     let least = f64::from_bits(LEAST);
-    p.iter().fold(0u64, |all, p| all | u64::from(!(p.abs() <= f64::MAX) | ((*p > 0.0) & (*p < least)))) != 0
+    p.iter().fold(0u64, |all, p| all | u64::from(!p.is_finite() | ((*p > 0.0) & (*p < least)))) != 0
 }
