@@ -128,7 +128,7 @@ fn memory(archard: &LawInstance) {
     println!("\nlinear archard through LawInstance::evaluate against a triad of the same arrays, 24 B per point");
     println!(
         "{:>9} {:>7} {:>12} {:>12} {:>18} {:>18}",
-        "points", "threads", "triad, GB/s", "law, GB/s", "law/triad (least)", "law/triad (median)"
+        "points", "threads", "triad, GB/s", "law, GB/s", "triad/law (least)", "triad/law (median)"
     );
     for &points in sizes {
         let (p, v) = columns(points);
@@ -168,12 +168,23 @@ fn memory(archard: &LawInstance) {
 /// Whole pieces of a run against the triad.
 fn run(archard: &LawInstance, folder: &std::path::Path) {
     let (sizes, steps): (&[usize], usize) = if is_measured() { (&[1_000_000, 20_000_000], 31) } else { (&[20_000], 2) };
-    println!("\na substep of solve::Run on a history of one time (linear archard; pressure and velocity in, depth in and");
-    println!("out, and the sums of the history's row) against a triad on the same threads; both move 32 B per point:");
-    println!("a triad reads what it is about to overwrite, as caches do, and a substep reads it to add to it");
     println!(
-        "{:>9} {:>7} {:>10} {:>10} {:>20} {:>20} {:>20}",
-        "points", "threads", "triad, ms", "step, ms", "triad/step (least)", "triad/step (median)", "law's part of step"
+        "\na substep of solve::Run on a history of one time (linear archard) against a triad on the same threads. Of a"
+    );
+    println!(
+        "point it moves 48 B: pressure and velocity in, depth and sliding distance in and out; a triad moves 32 B, as"
+    );
+    println!("it reads what it overwrites. Bandwidth: bytes moved a second, as a part of the triad's.");
+    println!(
+        "{:>9} {:>7} {:>10} {:>10} {:>20} {:>20} {:>18} {:>11}",
+        "points",
+        "threads",
+        "triad, ms",
+        "step, ms",
+        "triad/step (least)",
+        "triad/step (median)",
+        "bandwidth (least)",
+        "law's part"
     );
     for &points in sizes {
         let steps = if points < 5_000_000 { 5 * steps } else { steps };
@@ -182,11 +193,12 @@ fn run(archard: &LawInstance, folder: &std::path::Path) {
         for threads in [1, 2] {
             let row = scenes::substeps_against_triad(&plan, archard, threads, points);
             println!(
-                "{points:>9} {threads:>7} {:>10.3} {:>10.3} {:>20.3} {:>20.3} {:>19.0}%",
+                "{points:>9} {threads:>7} {:>10.3} {:>10.3} {:>20.3} {:>20.3} {:>18.3} {:>10.0}%",
                 row.triad.least() * 1e3,
                 row.step.least() * 1e3,
                 row.triad.least() / row.step.least(),
                 row.triad.median() / row.step.median(),
+                1.5 * row.triad.least() / row.step.least(),
                 100.0 * row.law_share
             );
         }

@@ -12,6 +12,7 @@ use crate::solve::inputs::{Drive, Moment, Remembered, Rooms, Site};
 use crate::solve::source::{value, vector};
 use crate::solve::sums::Sums;
 use crate::solve::{PointError, ShortStep};
+use crate::solve::sweeps::{all_positive, largest};
 
 /// Points of one chunk: its columns stay in the second cache while it is integrated. Fixed, so that bits do not
 /// depend on the number of threads.
@@ -174,13 +175,7 @@ fn for_runs<E>(
 ) -> Result<(), E> {
     let all = match pressure {
         _ if wants_open => Some(true),
-        Values::PerPoint(values) => {
-            if values.iter().all(|p| *p > 0.0) {
-                Some(true)
-            } else {
-                None
-            }
-        }
+        Values::PerPoint(values) => all_positive(values).then_some(true),
         uniform => Some(value(uniform, 0) > 0.0),
     };
     if let Some(closed) = all {
@@ -368,17 +363,22 @@ pub(super) fn slide(drive: &Drive<'_>, length: f64, range: Range<usize>, distanc
     if distance.is_empty() {
         return;
     }
-    let paths = drive.paths((0.0, 1.0), length, range, &mut scratch.distance, &mut scratch.parts);
-    for (i, distance) in distance.iter_mut().enumerate() {
-        *distance += value(&paths, i);
+    if let Some(velocities) = drive.lasting_velocities(range.clone()) {
+        distance.iter_mut().zip(velocities).for_each(|(distance, velocity)| *distance += velocity.abs() * length);
+        return;
+    }
+    match drive.paths((0.0, 1.0), length, range, &mut scratch.distance, &mut scratch.parts) {
+        Values::PerPoint(paths) => distance.iter_mut().zip(paths).for_each(|(distance, path)| *distance += path),
+        paths => distance.iter_mut().for_each(|distance| *distance += value(&paths, 0)),
     }
 }
 
-/// Sums over a chunk at a fraction of a piece.
+/// Sums over a chunk at a fraction of a piece; `worn` is false where neither wear nor distance has ever been written,
+/// so that the memory for them is not asked for before it is needed.
 pub(super) fn measure(
     site: &Site<'_>,
     drive: &Drive<'_>,
-    part: f64,
+    (part, worn): (f64, bool),
     range: Range<usize>,
     slices: &Slices<'_>,
     scratch: &mut Scratch,
@@ -387,27 +387,24 @@ pub(super) fn measure(
     let pressure = drive.driving_pressure(site.plan, part, range.clone(), (pressure, parts));
     let areas = drive.areas(part, range.clone(), areas);
     let mut sums = Sums::default();
-    if let (Values::Uniform(p), Values::Absent) = (&pressure, &areas) {
-        sums.max_pressure = p.max(0.0);
-        sums.contacts = if *p > 0.0 { range.len() as u64 } else { 0 };
-        for wear in slices.wear.iter() {
-            sums.max_wear = sums.max_wear.max(*wear);
-            sums.squared_wear += wear * wear;
-        }
-    } else {
-        for (i, wear) in slices.wear.iter().enumerate() {
-            let p = value(&pressure, i).max(0.0);
-            let area = if areas == Values::Absent { 0.0 } else { value(&areas, i) };
-            sums.load += p * area;
-            sums.area += if p > 0.0 { area } else { 0.0 };
-            sums.contacts += u64::from(p > 0.0);
-            sums.volume += wear * area;
-            sums.max_pressure = sums.max_pressure.max(p);
-            sums.max_wear = sums.max_wear.max(*wear);
-            sums.squared_wear += wear * wear;
+    match (&pressure, &areas) {
+        (Values::Uniform(p), Values::Absent) => sums.max_pressure = p.max(0.0),
+        (Values::PerPoint(all), Values::Absent) => sums.max_pressure = largest(all),
+        _ => {
+            for (i, wear) in slices.wear.iter().enumerate() {
+                let p = value(&pressure, i).max(0.0);
+                let area = if areas == Values::Absent { 0.0 } else { value(&areas, i) };
+                sums.load += p * area;
+                sums.area += if p > 0.0 { area } else { 0.0 };
+                sums.volume += wear * area;
+                sums.max_pressure = sums.max_pressure.max(p);
+            }
         }
     }
-    sums.max_distance = slices.distance.iter().fold(0.0, |most, d| f64::max(most, *d));
+    if worn {
+        sums.max_wear = largest(slices.wear);
+        sums.max_distance = largest(slices.distance);
+    }
     sums
 }
 

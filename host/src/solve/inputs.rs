@@ -9,6 +9,7 @@ use crate::scene::Basis;
 use crate::solve::kinematics::{ALONG, UP, contact_state, normal_at, path, speed_of, speeds, tangent};
 use crate::solve::schedule::Piece;
 use crate::solve::source::{Rate, Source, map, value, vector, vectors, zip};
+use crate::solve::sweeps::no_sign;
 
 /// Everything that drives the points over one piece.
 pub(super) struct Drive<'h> {
@@ -130,6 +131,16 @@ impl<'h> Drive<'h> {
             Motion::None => true,
             Motion::Velocity => !matches!(self.velocity, Source::Rows { .. }),
             Motion::Slip | Motion::SlipVector => self.slip.iter().all(Rate::is_uniform),
+        }
+    }
+
+    /// The velocities of points that keep them over the piece.
+    pub(super) fn lasting_velocities(&self, range: Range<usize>) -> Option<&'h [f64]> {
+        match self.velocity {
+            Source::Rows { from, to, .. } if self.motion == Motion::Velocity && std::ptr::eq(from, to) => {
+                Some(&from[range])
+            }
+            _ => None,
         }
     }
 
@@ -339,7 +350,10 @@ impl<'h> Drive<'h> {
         let speed = match self.motion {
             _ if !moves => Values::Absent,
             Motion::SlipVector => speed_of(&velocity, points, &mut rooms.speed),
-            _ => map(&velocity[0], &mut rooms.speed, f64::abs),
+            _ => match velocity[0] {
+                Values::PerPoint(all) if no_sign(all) => velocity[0],
+                _ => map(&velocity[0], &mut rooms.speed, f64::abs),
+            },
         };
         builder = builder.field(Field::Velocity, speed);
         let slip = if any(&[Field::Slip, Field::FrictionWork]) {

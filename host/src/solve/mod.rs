@@ -16,6 +16,7 @@ mod run;
 mod schedule;
 mod source;
 mod sums;
+mod sweeps;
 
 pub use error::{PointError, ShortStep, SolveError};
 pub use reference::{ErrorNorm, ReferenceError, compare};

@@ -26,6 +26,8 @@ pub(super) struct Arrays {
     averaged: Vec<f64>,
     hints: Vec<f64>,
     states: usize,
+    /// Whether a piece has been gone through; before, wear and distances are zero.
+    worn: bool,
 }
 
 /// What one piece came to.
@@ -53,6 +55,7 @@ impl Arrays {
             averaged: if average { vec![0.0; points] } else { Vec::new() },
             hints: vec![f64::INFINITY; points.div_ceil(CHUNK)],
             states: initial_state.len(),
+            worn: false,
         }
     }
 
@@ -109,6 +112,7 @@ impl Arrays {
         if average {
             self.averaged.copy_from_slice(&self.wear);
         }
+        self.worn = true;
         let points = self.wear.len();
         let rule = chunk::rule(site, drive, points);
         let length = site.piece.end - site.piece.start;
@@ -118,7 +122,7 @@ impl Arrays {
             let mut done = chunk::advance(site, drive, evaluator, range.clone(), slices, (rule, before), scratch)?;
             chunk::slide(drive, length, range.clone(), slices.distance, scratch);
             if !average {
-                done.sums = chunk::measure(site, drive, 1.0, range, slices, scratch);
+                done.sums = chunk::measure(site, drive, (1.0, true), range, slices, scratch);
             }
             Ok::<Done, AdvanceError<PointError>>(done)
         });
@@ -171,8 +175,9 @@ impl Arrays {
     /// Sums over all points at a fraction of a piece.
     pub(super) fn measure(&mut self, site: &Site<'_>, drive: &Drive<'_>, part: f64) -> Sums {
         let averaged = std::mem::take(&mut self.averaged);
+        let worn = self.worn;
         let sums = self.each(|start, slices, scratch| {
-            chunk::measure(site, drive, part, start..start + slices.wear.len(), slices, scratch)
+            chunk::measure(site, drive, (part, worn), start..start + slices.wear.len(), slices, scratch)
         });
         self.averaged = averaged;
         let mut whole = Sums::default();

@@ -9,8 +9,6 @@ pub(super) struct Sums {
     pub(super) max_pressure: f64,
     pub(super) max_wear: f64,
     pub(super) max_distance: f64,
-    pub(super) squared_wear: f64,
-    pub(super) contacts: u64,
 }
 
 impl Sums {
@@ -21,7 +19,5 @@ impl Sums {
         self.max_pressure = self.max_pressure.max(other.max_pressure);
         self.max_wear = self.max_wear.max(other.max_wear);
         self.max_distance = self.max_distance.max(other.max_distance);
-        self.squared_wear += other.squared_wear;
-        self.contacts += other.contacts;
     }
 }

@@ -181,6 +181,24 @@ impl<'a> Batch<'a> {
     pub fn constant(&self, index: usize) -> Option<Column<'a>> {
         self.listed(self.view.constants, self.view.constant_count, index)
     }
+    /// The first `N` constants, if there are as many and each is one value for all points.
+    #[inline]
+    pub fn uniform_constants<const N: usize>(&self) -> Option<[f64; N]> {
+        if self.view.constants.is_null() || self.view.constant_count < N as i64 || self.view.points == 0 {
+            return None;
+        }
+        let mut all = [0.0; N];
+        for (index, value) in all.iter_mut().enumerate() {
+            // SAFETY: the host promises `constant_count` columns behind a list that is not NULL.
+            let column = unsafe { *self.view.constants.add(index) };
+            if column.ptr.is_null() || column.step != 0 {
+                return None;
+            }
+            // SAFETY: the host promises the value of a column that is not absent.
+            *value = unsafe { *column.ptr };
+        }
+        Some(all)
+    }
     /// Further input `index`, in the declared order.
     #[inline]
     pub fn input(&self, index: usize) -> Option<Column<'a>> {

@@ -44,8 +44,32 @@ impl About for Archard {
 }
 
 impl Law for Archard {
+    #[inline]
     fn evaluate(&self, batch: &Batch<'_>, answer: &mut Answer<'_>) -> Status {
-        let missing = batch.missing(Self::READS);
+        if steady(batch, answer) {
+            answer.all_good();
+            return answer.worst();
+        }
+        self.evaluate_any(batch, answer)
+    }
+}
+
+/// Answers a linear law over columns of ordinary numbers, the common case, with as little ceremony as a call of a few
+/// points deserves; whether this was one.
+#[inline(always)]
+fn steady(batch: &Batch<'_>, answer: &mut Answer<'_>) -> bool {
+    let (Some([k, h, 1.0, 1.0]), None) = (batch.uniform_constants(), &answer.d_pressure) else { return false };
+    let (Some(pressure), Some(velocity)) = (batch.pressure(), batch.velocity()) else { return false };
+    match (pressure.slice(), velocity.slice()) {
+        (Some(p), Some(v)) => power::steady(p, v, (k, h, batch.dt()), answer.increment),
+        _ => false,
+    }
+}
+
+impl Archard {
+    #[inline(never)]
+    fn evaluate_any(&self, batch: &Batch<'_>, answer: &mut Answer<'_>) -> Status {
+        let missing = batch.missing(<Self as About>::READS);
         let constants = [0, 1, 2, 3].map(|k| batch.constant(k));
         let (Some(pressure), Some(velocity), [Some(k), Some(h), Some(m), Some(n)]) =
             (batch.pressure(), batch.velocity(), constants)
@@ -62,7 +86,8 @@ impl Law for Archard {
         let columns = Columns { pressure, velocity, k, h, m, n };
         let uniform = columns.uniform();
         if let Some(constants) = uniform
-            && columns.settled(constants, dt, answer)
+            && (constants[0] == 0.0 || dt == 0.0)
+            && columns.silent(constants, answer)
         {
             return answer.worst();
         }
@@ -115,21 +140,6 @@ impl Columns<'_> {
     /// K, H, m and n, if every point has the same.
     fn uniform(&self) -> Option<[f64; 4]> {
         Some([self.k.uniform()?, self.h.uniform()?, self.m.uniform()?, self.n.uniform()?])
-    }
-
-    /// Answers the batches that need no look at single points; whether this was one.
-    #[inline]
-    fn settled(&self, constants: [f64; 4], dt: f64, answer: &mut Answer<'_>) -> bool {
-        let [k, h, m, n] = constants;
-        if k == 0.0 || dt == 0.0 {
-            return self.silent(constants, answer);
-        }
-        let (1.0, 1.0, None, Some(p), Some(v)) =
-            (m, n, &answer.d_pressure, self.pressure.slice(), self.velocity.slice())
-        else {
-            return false;
-        };
-        power::steady(p, v, (k, h, dt), answer.increment)
     }
 
     /// Answers a batch without wear at any pressure and velocity, if these and the constants are good.

@@ -85,7 +85,8 @@ impl Scale {
         let (hf, he) = split_any(if usable(ha) { ha } else { 1.0 });
         let (df, de) = split_any(if usable(da) { da } else { 1.0 });
         let q = kf / hf;
-        let q_lo = (-q).mul_add(hf, kf) / hf;
+        // The reciprocal does not wait for the quotient, and the remainder needs no more than its few digits.
+        let q_lo = (-q).mul_add(hf, kf) * (1.0 / hf);
         let (w, e) = two_product(q, df);
         let (hi, lo) = fast_two_sum(w, q_lo.mul_add(df, e));
         let finite = ka <= f64::MAX && ha <= f64::MAX && da <= f64::MAX && ha > 0.0;
@@ -101,7 +102,7 @@ impl Scale {
     #[inline(always)]
     pub(super) fn value_of_usual(k: f64, h: f64, dt: f64) -> f64 {
         let q = k / h;
-        let q_lo = (-q).mul_add(h, k) / h;
+        let q_lo = (-q).mul_add(h, k) * (1.0 / h);
         let (w, e) = two_product(q, dt);
         w + q_lo.mul_add(dt, e)
     }

@@ -5,12 +5,14 @@
 //! negative, infinite or not a number, so one maximum over all points tells of every increment.
 #![allow(unsafe_code)] // Loads and stores of four doubles; a call of functions compiled for AVX2 and FMA.
 
-use super::linear::products;
-use super::kernel::LINEAR;
 use super::scale::Scale;
 
 /// Upper half of infinity.
 const INFINITE: u32 = 0x7ff0_0000;
+/// Points that are computed at once.
+const LANES: usize = 4;
+/// Bytes of that many points: a store that crosses a line of the cache takes twice as long.
+const LINE: usize = 32;
 /// K, H and dt outside `1 / WIDE ..= WIDE` are left to the general path: (K/H) dt and the steps to it stay normal.
 const WIDE: f64 = 1.0e60;
 /// Bits of a pressure (about 1e-100) that every such factor multiplies to a normal number, as do all above it. The lower
@@ -29,28 +31,58 @@ pub fn steady(p: &[f64], v: &[f64], (k, h, dt): (f64, f64, f64), out: &mut [f64]
         let usual = |x: f64| (1.0 / WIDE..=WIDE).contains(&x);
         if usual(k) & usual(h) & usual(dt) && is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
             // SAFETY: the processor has just been asked for both features.
-            return unsafe { steady_avx2(p, v, (k, h, dt), out) };
+            return unsafe {
+                match out.len() {
+                    0..LANES => steady_few(p, v, k, h, dt, out),
+                    _ => steady_avx2(p, v, k, h, dt, out),
+                }
+            };
         }
     }
     let _ = (p, v, k, h, dt, out, WIDE);
     false
 }
 
+/// [`steady`] for usual constants and a few points, point by point; whether all of them are usual.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn steady_few(p: &[f64], v: &[f64], k: f64, h: f64, dt: f64, out: &mut [f64]) -> bool {
+    singly(p, v, Scale::value_of_usual(k, h, dt), out)
+}
+
+#[inline(always)]
+fn singly(p: &[f64], v: &[f64], c: f64, out: &mut [f64]) -> bool {
+    let mut good = true;
+    // The fixed bound keeps the compiler from making more of this than it is.
+    for i in 0..LANES - 1 {
+        let (Some(p), Some(v), Some(out)) = (p.get(i), v.get(i), out.get_mut(i)) else { break };
+        let wear = c * if *p > 0.0 { *p } else { 0.0 } * v.abs();
+        *out = wear;
+        let usual = p.to_bits().wrapping_sub(LEAST) <= f64::MAX.to_bits() - LEAST;
+        good &= (usual || (-f64::MAX..=0.0).contains(p)) && wear.to_bits() <= f64::MAX.to_bits();
+    }
+    good
+}
+
 /// [`steady`] for usual constants.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn steady_avx2(p: &[f64], v: &[f64], (k, h, dt): (f64, f64, f64), out: &mut [f64]) -> bool {
+fn steady_avx2(p: &[f64], v: &[f64], k: f64, h: f64, dt: f64, out: &mut [f64]) -> bool {
     use std::arch::x86_64::*;
     let c = Scale::value_of_usual(k, h, dt);
-    let points = out.len();
-    let (p, v) = (&p[..points], &v[..points]);
-    let whole = points - points % 4;
+    // As many points as bring the stores to an even address; the rest goes by fours, and what is over singly again.
+    let head = out.as_ptr().align_offset(LINE).min(out.len());
+    let (p, v) = (&p[..out.len()], &v[..out.len()]);
+    let (first_out, out) = out.split_at_mut(head);
+    let (first_p, p) = p.split_at(head);
+    let (first_v, v) = v.split_at(head);
+    let whole = out.len() - out.len() % LANES;
     let (factor, zero) = (_mm256_set1_pd(c), _mm256_setzero_pd());
     let size = _mm256_set1_pd(f64::from_bits(!(1 << 63)));
     let least = _mm256_set1_epi64x(LEAST as i64);
     let (mut most_p, mut most_w) = (_mm256_setzero_si256(), _mm256_setzero_si256());
-    for i in (0..whole).step_by(4) {
-        // SAFETY: `i + 4 <= whole`, which is at most the length of each of the three slices.
+    for i in (0..whole).step_by(LANES) {
+        // SAFETY: `i + LANES <= whole`, which is at most the length of each of the three slices.
         unsafe {
             let bits = _mm256_loadu_si256(p.as_ptr().add(i).cast());
             // The second operand is the answer where the first is not a number.
@@ -62,26 +94,22 @@ fn steady_avx2(p: &[f64], v: &[f64], (k, h, dt): (f64, f64, f64), out: &mut [f64
             most_w = _mm256_max_epu32(most_w, _mm256_castpd_si256(wear));
         }
     }
-    let mut left = false;
-    for i in whole..points {
-        let (outcome, doubtful) = products::<LINEAR, LINEAR>(p[i], v[i], c);
-        out[i] = outcome.wear;
-        left |= doubtful;
-    }
+    let mut good = singly(first_p, first_v, c, first_out);
+    good &= singly(&p[whole..], &v[whole..], c, &mut out[whole..]);
     if whole == 0 {
-        return !left;
+        return good;
     }
     let most = |x: __m256i| {
         let x = _mm_max_epu32(_mm256_castsi256_si128(x), _mm256_extracti128_si256::<1>(x));
         let x = _mm_max_epu32(x, _mm_shuffle_epi32::<0b01_00_11_10>(x));
         _mm_extract_epi32::<1>(x) as u32
     };
-    left |= most(most_w) >= INFINITE;
+    good &= most(most_w) < INFINITE;
     // The largest usual difference is that of f64::MAX; those of negative numbers, NaN and small numbers are larger.
     if most(most_p) > ((f64::MAX.to_bits() - LEAST) >> 32) as u32 {
-        left |= some_unusual(&p[..whole]);
+        good &= !some_unusual(&p[..whole]);
     }
-    !left
+    good
 }
 
 /// Whether a pressure is not finite or lies between 0 and [`LEAST`].
@@ -90,5 +118,5 @@ fn steady_avx2(p: &[f64], v: &[f64], (k, h, dt): (f64, f64, f64), out: &mut [f64
 #[cold]
 fn some_unusual(p: &[f64]) -> bool {
     let least = f64::from_bits(LEAST);
-    p.iter().fold(0u64, |all, p| all | u64::from(!(p.abs() <= f64::MAX) | ((*p > 0.0) & (*p < least)))) != 0
+    p.iter().fold(0u64, |all, p| all | u64::from(!p.is_finite() | ((*p > 0.0) & (*p < least)))) != 0
 }

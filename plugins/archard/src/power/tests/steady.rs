@@ -21,7 +21,8 @@ fn the_bits_are_those_of_the_general_path() {
     for round in 0..2000 {
         let law = Law { m: 1.0, n: 1.0, k: r.decade(-60.0, 60.0), h: r.decade(-60.0, 60.0), dt: r.decade(-60.0, 60.0) };
         let p: Vec<f64> = (0..1 + round % 19).map(|_| r.decade(-99.0, 120.0) - r.within(0.0, 1e-3)).collect();
-        let v: Vec<f64> = p.iter().map(|_| r.decade(-120.0, 3.0) * if r.bits() % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        let v: Vec<f64> =
+            p.iter().map(|_| r.decade(-120.0, 3.0) * if r.bits().is_multiple_of(2) { 1.0 } else { -1.0 }).collect();
         let (good, out) = quick(&law, &p, &v);
         if good {
             answered += 1;
