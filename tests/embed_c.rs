@@ -18,32 +18,18 @@ fn embed(folder: &Path) -> std::path::PathBuf {
         .arg(&program)
         .output()
         .expect("the compiler starts");
-    assert!(
-        built.status.success(),
-        "{}",
-        String::from_utf8_lossy(&built.stderr)
-    );
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
     program
 }
 
 fn run(program: &Path, law: &Path, constants: &[&str]) -> Output {
-    Command::new(program)
-        .arg(law)
-        .args(constants)
-        .output()
-        .expect("the program starts")
+    Command::new(program).arg(law).args(constants).output().expect("the program starts")
 }
 
 fn increments(output: &Output) -> Vec<f64> {
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    text.lines()
-        .map(|line| line.parse().expect("a number"))
-        .collect()
+    text.lines().map(|line| line.parse().expect("a number")).collect()
 }
 
 #[test]
@@ -62,7 +48,8 @@ fn a_c_program_evaluates_a_loaded_law() {
 fn archard() -> std::path::PathBuf {
     let program = std::env::current_exe().expect("a test knows its own path");
     let folder = program.parent().expect("a program lies in a folder");
-    let library = folder.join(format!("{}wearlaw_archard{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX));
+    let library =
+        folder.join(format!("{}wearlaw_archard{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX));
     assert!(library.exists(), "cargo builds {} with this test", library.display());
     library
 }
@@ -89,21 +76,14 @@ fn a_c_program_is_told_what_a_law_refuses() {
     let refused = run(&program, &law, &["H=2e9"]); // K has no default
     assert_eq!(refused.status.code(), Some(3));
     let said = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(
-        said.contains("archard-threshold: status 3 no finite wear at pressure"),
-        "{said}"
-    );
+    assert!(said.contains("archard-threshold: status 3 no finite wear at pressure"), "{said}");
     let nothing = run(&program, &folder.path().join("none.so"), &[]);
     assert_eq!(nothing.status.code(), Some(2));
 }
 
 #[test]
 fn the_program_stays_short() {
-    let text =
-        std::fs::read_to_string(native::root().join("tests/data/embed.c")).expect("it is there");
-    let lines = text
-        .lines()
-        .map(str::trim)
-        .filter(|l| !l.is_empty() && !l.starts_with("/*") && !l.starts_with('*'));
+    let text = std::fs::read_to_string(native::root().join("tests/data/embed.c")).expect("it is there");
+    let lines = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with("/*") && !l.starts_with('*'));
     assert!(lines.count() <= 65);
 }

@@ -39,18 +39,13 @@ fn wearlaw_h_is_what_cbindgen_generates() {
 }
 
 /// What a law must say before it includes the point-wise helper in C.
-const MINIMAL: &str =
-    "#define LAW_NAME \"a\"\n#define LAW_VERSION \"1\"\n#define LAW_SUMMARY \"a law\"\n";
+const MINIMAL: &str = "#define LAW_NAME \"a\"\n#define LAW_VERSION \"1\"\n#define LAW_SUMMARY \"a law\"\n";
 
 /// Compiles a text that includes `header` once or twice, with every warning an error.
 fn assert_compiles(header: &str, before: &str, after: &str, standard: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let cpp = standard.starts_with("c++");
-    let (variable, compiler, name) = if cpp {
-        ("CXX", "c++", "alone.cpp")
-    } else {
-        ("CC", "cc", "alone.c")
-    };
+    let (variable, compiler, name) = if cpp { ("CXX", "c++", "alone.cpp") } else { ("CC", "cc", "alone.c") };
     for times in [1, 2] {
         let source = folder.path().join(name);
         let include = format!("#include \"{header}\"\n").repeat(times);
@@ -106,15 +101,8 @@ fn every_header_is_tested_alone() {
         "wearlaw_point_loop.h",
     ];
     let entries = std::fs::read_dir(root().join("include")).expect("include/ is there");
-    let names = entries.map(|e| {
-        e.expect("an entry")
-            .file_name()
-            .into_string()
-            .expect("a name")
-    });
-    let mut names: Vec<String> = names
-        .filter(|n| n.ends_with(".h") || n.ends_with(".hpp"))
-        .collect();
+    let names = entries.map(|e| e.expect("an entry").file_name().into_string().expect("a name"));
+    let mut names: Vec<String> = names.filter(|n| n.ends_with(".h") || n.ends_with(".hpp")).collect();
     names.sort();
     assert_eq!(names, known);
 }

@@ -78,33 +78,16 @@ fn in_rust() -> Table {
 /// Runs a generated program and reads its lines `name offset size kind`.
 fn table_of(source: &Path, compiler: &mut Command) -> Table {
     let program = source.with_extension("out");
-    let built = compiler
-        .arg(source)
-        .arg("-o")
-        .arg(&program)
-        .output()
-        .expect("the compiler starts");
-    assert!(
-        built.status.success(),
-        "{}",
-        String::from_utf8_lossy(&built.stderr)
-    );
+    let built = compiler.arg(source).arg("-o").arg(&program).output().expect("the compiler starts");
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
     let run = Command::new(&program).output().expect("the program starts");
     assert!(run.status.success());
     let text = String::from_utf8(run.stdout).expect("a text");
-    let number = |word: &str| {
-        word.parse::<i64>()
-            .map(|n| n as usize)
-            .unwrap_or_else(|_| panic!("{word} is no number: {text}"))
-    };
+    let number =
+        |word: &str| word.parse::<i64>().map(|n| n as usize).unwrap_or_else(|_| panic!("{word} is no number: {text}"));
     text.lines()
         .map(|line| line.split_whitespace().collect::<Vec<_>>())
-        .map(|w| {
-            (
-                w[0].to_owned(),
-                (number(w[1]), number(w[2]), w[3].to_owned()),
-            )
-        })
+        .map(|w| (w[0].to_owned(), (number(w[1]), number(w[2]), w[3].to_owned())))
         .collect()
 }
 
@@ -128,22 +111,13 @@ fn in_c(header: &str, folder: &Path) -> Table {
     std::fs::write(folder.join("wearlaw.h"), header).expect("a writable folder");
     std::fs::write(folder.join("layout.c"), text).expect("a writable folder");
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".into());
-    table_of(
-        &folder.join("layout.c"),
-        Command::new(compiler)
-            .args(["-std=c11", "-Wall", "-Werror", "-I"])
-            .arg(folder),
-    )
+    table_of(&folder.join("layout.c"), Command::new(compiler).args(["-std=c11", "-Wall", "-Werror", "-I"]).arg(folder))
 }
 
 /// The constants of the header, by name in lower case.
 fn constants(header: &str) -> BTreeMap<String, i64> {
-    let words = header
-        .lines()
-        .filter_map(|line| line.strip_prefix("#define ")?.split_once(' '));
-    words
-        .filter_map(|(name, value)| Some((name.to_lowercase(), value.parse().ok()?)))
-        .collect()
+    let words = header.lines().filter_map(|line| line.strip_prefix("#define ")?.split_once(' '));
+    words.filter_map(|(name, value)| Some((name.to_lowercase(), value.parse().ok()?))).collect()
 }
 
 /// The table in Fortran, with every constant as a row of its own (its value as the offset).
@@ -164,9 +138,7 @@ fn in_fortran(folder: &Path, constants: &BTreeMap<String, i64>) -> Table {
                 "  call row('{name}', c_loc(a_{of}), c_loc(a_{of}%{field}), &\n    \
                  c_sizeof(a_{of}%{field}), kind_of(a_{of}%{field}))\n"
             ),
-            None => format!(
-                "  call row('{name}', c_loc(a_{name}), c_loc(a_{name}), c_sizeof(a_{name}), 0)\n"
-            ),
+            None => format!("  call row('{name}', c_loc(a_{name}), c_loc(a_{name}), c_sizeof(a_{name}), 0)\n"),
         };
     }
     for name in constants.keys() {
@@ -180,10 +152,7 @@ fn in_fortran(folder: &Path, constants: &BTreeMap<String, i64>) -> Table {
         ("integer_kind", "integer(c_int64_t), intent(in) :: x"),
         ("real_kind", "real(c_double), intent(in) :: x"),
         ("pointer_kind", "type(c_ptr), intent(in) :: x"),
-        (
-            "characters_kind",
-            "character(kind=c_char), intent(in) :: x(:)",
-        ),
+        ("characters_kind", "character(kind=c_char), intent(in) :: x(:)"),
         ("column_kind", "type(wl_column), intent(in) :: x"),
         ("index_kind", "type(wl_index_column), intent(in) :: x"),
     ]) {
@@ -196,20 +165,13 @@ fn in_fortran(folder: &Path, constants: &BTreeMap<String, i64>) -> Table {
     std::fs::write(folder.join("layout.f90"), text).expect("a writable folder");
     let compiler = std::env::var("FC").unwrap_or_else(|_| "gfortran".into());
     let mut command = Command::new(compiler);
-    command
-        .args(["-std=f2008", "-J"])
-        .arg(folder)
-        .arg(native::include().join("wearlaw.f90"));
+    command.args(["-std=f2008", "-J"]).arg(folder).arg(native::include().join("wearlaw.f90"));
     table_of(&folder.join("layout.f90"), &mut command)
 }
 
 fn assert_same(rust: &Table, other: &Table, language: &str) {
     for (name, row) in rust {
-        assert_eq!(
-            Some(row),
-            other.get(name),
-            "{name} in Rust and in {language}"
-        );
+        assert_eq!(Some(row), other.get(name), "{name} in Rust and in {language}");
     }
     assert_eq!(rust.len(), other.len());
 }
@@ -234,9 +196,7 @@ fn layout_fortran() {
     let mut table = in_fortran(folder.path(), &constants);
     assert!(constants.len() > 50);
     for (name, value) in constants {
-        let row = table
-            .remove(&name)
-            .unwrap_or_else(|| panic!("no constant {name} in Fortran"));
+        let row = table.remove(&name).unwrap_or_else(|| panic!("no constant {name} in Fortran"));
         // Read back through the offset column, where -1 is the largest number.
         assert_eq!(row.0 as i64, value, "{name}");
     }
@@ -250,11 +210,8 @@ fn layout_fortran() {
         }
     }
     assert_same(&rust, &table, "Fortran");
-    let text = std::fs::read_to_string(native::include().join("wearlaw.f90"))
-        .expect("the module is there");
-    let declared = text
-        .lines()
-        .filter_map(|line| line.trim().strip_prefix("type(c_funptr) :: "));
+    let text = std::fs::read_to_string(native::include().join("wearlaw.f90")).expect("the module is there");
+    let declared = text.lines().filter_map(|line| line.trim().strip_prefix("type(c_funptr) :: "));
     let mut declared: Vec<&str> = declared.flat_map(|names| names.split(", ")).collect();
     declared.sort_unstable();
     assert_eq!(declared, functions);
@@ -262,16 +219,9 @@ fn layout_fortran() {
 
 #[test]
 fn the_sizes_that_fortran_states_are_those_of_its_types() {
-    let text = std::fs::read_to_string(native::include().join("wearlaw.f90"))
-        .expect("the module is there");
-    for (name, bytes) in [
-        ("WL_VIEW_BYTES", size_of::<View>()),
-        ("WL_OUTPUT_BYTES", size_of::<Output>()),
-    ] {
-        assert!(
-            text.contains(&format!("{name} = {bytes}_c_int64_t")),
-            "{name} is not {bytes}"
-        );
+    let text = std::fs::read_to_string(native::include().join("wearlaw.f90")).expect("the module is there");
+    for (name, bytes) in [("WL_VIEW_BYTES", size_of::<View>()), ("WL_OUTPUT_BYTES", size_of::<Output>())] {
+        assert!(text.contains(&format!("{name} = {bytes}_c_int64_t")), "{name} is not {bytes}");
     }
 }
 
@@ -281,29 +231,12 @@ fn a_changed_struct_is_caught() {
     let header = header();
     let field = |kind: &str, name: &str| format!("  {kind}{name};\n");
     for (old, new) in [
-        (
-            field("int64_t ", "first_bad"),
-            field("double ", "first_bad"),
-        ),
-        (
-            field("double ", "dt_factor"),
-            format!(
-                "{}{}",
-                field("double ", "dt_factor"),
-                field("double ", "more")
-            ),
-        ),
-        (
-            field("char ", "version[WL_VERSION_SIZE]"),
-            field("char ", "version[WL_NAME_SIZE]"),
-        ),
+        (field("int64_t ", "first_bad"), field("double ", "first_bad")),
+        (field("double ", "dt_factor"), format!("{}{}", field("double ", "dt_factor"), field("double ", "more"))),
+        (field("char ", "version[WL_VERSION_SIZE]"), field("char ", "version[WL_NAME_SIZE]")),
     ] {
         assert!(header.contains(&old), "{old}");
         let table = in_c(&header.replace(&old, &new), folder.path());
-        assert_ne!(
-            table,
-            in_rust(),
-            "{old} became {new} and nothing was noticed"
-        );
+        assert_ne!(table, in_rust(), "{old} became {new} and nothing was noticed");
     }
 }

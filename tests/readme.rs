@@ -74,7 +74,9 @@ fn every_scene_and_every_law_is_listed() {
     let text = readme();
     let names = |folder: &str| {
         let entries = std::fs::read_dir(root().join(folder)).expect("the folder is there");
-        entries.map(|entry| entry.expect("it can be read").file_name().to_string_lossy().into_owned()).collect::<Vec<_>>()
+        entries
+            .map(|entry| entry.expect("it can be read").file_name().to_string_lossy().into_owned())
+            .collect::<Vec<_>>()
     };
     for scene in names("host/scenes").iter().filter(|name| name.ends_with(".toml")) {
         assert!(text.contains(&format!("`{scene}`")), "README does not list {scene}");

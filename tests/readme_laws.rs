@@ -9,61 +9,34 @@ use std::process::Command;
 /// The fenced blocks of one language, in order.
 fn blocks<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
     let fence = format!("```{language}\n");
-    text.split(&fence)
-        .skip(1)
-        .map(|rest| rest.split("```").next().expect("a block ends"))
-        .collect()
+    text.split(&fence).skip(1).map(|rest| rest.split("```").next().expect("a block ends")).collect()
 }
 
 fn shell(folder: &Path, command: &str) -> String {
-    let output = Command::new("sh")
-        .arg("-c")
-        .arg(command)
-        .current_dir(folder)
-        .output()
-        .expect("a shell");
-    assert!(
-        output.status.success(),
-        "{command}\n{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    let output = Command::new("sh").arg("-c").arg(command).current_dir(folder).output().expect("a shell");
+    assert!(output.status.success(), "{command}\n{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
 #[test]
 fn the_laws_of_the_readme_build_and_run_as_printed() {
-    let text = std::fs::read_to_string(native::include().join("README.md"))
-        .expect("include/README.md is there");
+    let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
     let commands = blocks(&text, "sh");
     let c = blocks(&text, "c");
-    let mut laws = vec![
-        ("law.c", c[0], commands[0]),
-        ("law.cpp", blocks(&text, "cpp")[0], commands[1]),
-    ];
+    let mut laws = vec![("law.c", c[0], commands[0]), ("law.cpp", blocks(&text, "cpp")[0], commands[1])];
     if native::fortran("the_laws_of_the_readme_build_and_run_as_printed") {
         laws.push(("law.f90", blocks(&text, "fortran")[0], commands[2]));
     }
     let folder = tempfile::tempdir().expect("a temporary folder");
-    std::os::unix::fs::symlink(
-        native::include().canonicalize().expect("include/"),
-        folder.path().join("include"),
-    )
-    .expect("a writable folder");
+    std::os::unix::fs::symlink(native::include().canonicalize().expect("include/"), folder.path().join("include"))
+        .expect("a writable folder");
     std::fs::write(folder.path().join("try.c"), c[2]).expect("a writable folder");
     for (name, source, command) in laws {
         std::fs::write(folder.path().join(name), source).expect("a writable folder");
         shell(folder.path(), command);
         let said = shell(folder.path(), commands[3]);
-        assert!(
-            said.starts_with("my-archard: status 0, increment 2.5"),
-            "{name}: {said}"
-        );
-        let value: f64 = said
-            .trim()
-            .rsplit(' ')
-            .next()
-            .and_then(|w| w.parse().ok())
-            .expect("a number");
+        assert!(said.starts_with("my-archard: status 0, increment 2.5"), "{name}: {said}");
+        let value: f64 = said.trim().rsplit(' ').next().and_then(|w| w.parse().ok()).expect("a number");
         assert!((value - 2.5e-9).abs() < 1e-23, "{name}: {said}");
         std::fs::remove_file(folder.path().join("law.so")).expect("it was built");
     }
@@ -71,32 +44,20 @@ fn the_laws_of_the_readme_build_and_run_as_printed() {
 
 #[test]
 fn two_laws_fit_in_one_library_in_c() {
-    let text = std::fs::read_to_string(native::include().join("README.md"))
-        .expect("include/README.md is there");
+    let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
     let c = blocks(&text, "c");
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, fill) in [("one.c", "archard_fill"), ("two.c", "fretting_fill")] {
-        let law = format!(
-            "#define LAW_FILL {fill}\n{}",
-            c[0].replace("my-archard", fill)
-        );
+        let law = format!("#define LAW_FILL {fill}\n{}", c[0].replace("my-archard", fill));
         std::fs::write(folder.path().join(name), law).expect("a writable folder");
     }
     std::fs::write(folder.path().join("entry.c"), c[1]).expect("a writable folder");
     let out = folder.path().join("law.so");
-    native::try_compile(
-        &folder.path().join("entry.c"),
-        &native::include(),
-        &out,
-        &["one.c", "two.c"],
-    )
-    .expect("it compiles");
+    native::try_compile(&folder.path().join("entry.c"), &native::include(), &out, &["one.c", "two.c"])
+        .expect("it compiles");
     for (index, name) in ["archard_fill", "fretting_fill"].into_iter().enumerate() {
         let law = native::Native::open(&out, index as i32);
         assert_eq!(native::text(&law.law.name), name);
-        assert_eq!(
-            law.names(wearlaw_plugin_api::abi::WL_KIND_CONSTANT),
-            ["K", "H"]
-        );
+        assert_eq!(law.names(wearlaw_plugin_api::abi::WL_KIND_CONSTANT), ["K", "H"]);
     }
 }

@@ -22,27 +22,17 @@ fn edited_headers(edits: &[(&str, &str)]) -> tempfile::TempDir {
                 text = text.replace(old, new);
             }
         }
-        std::fs::write(folder.path().join(path.file_name().expect("a name")), text)
-            .expect("a writable folder");
+        std::fs::write(folder.path().join(path.file_name().expect("a name")), text).expect("a writable folder");
     }
     folder
 }
 
 #[test]
 fn laws_built_for_shorter_and_longer_structs_evaluate() {
-    let shorter = [
-        ("  struct wl_index_column element_id;\n", ""),
-        ("  double *d_pressure;\n", ""),
-    ];
+    let shorter = [("  struct wl_index_column element_id;\n", ""), ("  double *d_pressure;\n", "")];
     let longer = [
-        (
-            "  struct wl_index_column element_id;\n",
-            "  struct wl_index_column element_id;\n  struct wl_column film;\n",
-        ),
-        (
-            "  double *d_pressure;\n",
-            "  double *d_pressure;\n  double *d_slip;\n",
-        ),
+        ("  struct wl_index_column element_id;\n", "  struct wl_index_column element_id;\n  struct wl_column film;\n"),
+        ("  double *d_pressure;\n", "  double *d_pressure;\n  double *d_slip;\n"),
     ];
     let plain = std::fs::read_to_string(native::data("archard.c")).expect("the source is there");
     let without_slope = plain
@@ -54,11 +44,7 @@ fn laws_built_for_shorter_and_longer_structs_evaluate() {
         std::fs::write(&path, source).expect("a writable folder");
         let out = headers.path().join("law.so");
         native::try_compile(&path, headers.path(), &out, &[]).expect("it compiles");
-        check_at_three_points(
-            &Native::open(&out, 0),
-            size_of::<View>(),
-            size_of::<Output>(),
-        );
+        check_at_three_points(&Native::open(&out, 0), size_of::<View>(), size_of::<Output>());
     }
 }
 
@@ -91,10 +77,7 @@ fn a_host_with_shorter_structs_is_served() {
 /// Evaluates from structs of the sizes given, which end where the page of their buffer is no longer theirs to touch.
 fn check_at_three_points(law: &Native, view_size: usize, output_size: usize) {
     let constants = [2e-4, 1e9, 1.0, 1.0];
-    let columns: Vec<Column> = constants
-        .iter()
-        .map(|c| Column { ptr: c, step: 0 })
-        .collect();
+    let columns: Vec<Column> = constants.iter().map(|c| Column { ptr: c, step: 0 }).collect();
     let (pressure, velocity) = ([1e6, 0.0, 3e6], [0.5, 1.0, 2.0]);
     let mut v = view(3, 0.1);
     v.struct_size = view_size as i64;
@@ -110,38 +93,18 @@ fn check_at_three_points(law: &Native, view_size: usize, output_size: usize) {
     let mut output_words = [-1i64; 32];
     // SAFETY: both structs are made of whole 8-byte words, and the buffers are larger than they are.
     unsafe {
-        copy_words(
-            &raw const v,
-            &mut view_words,
-            view_size.min(size_of::<View>()),
-        );
-        copy_words(
-            &raw const o,
-            &mut output_words,
-            output_size.min(size_of::<Output>()),
-        );
+        copy_words(&raw const v, &mut view_words, view_size.min(size_of::<View>()));
+        copy_words(&raw const o, &mut output_words, output_size.min(size_of::<Output>()));
     }
     let evaluate = law.law.evaluate.expect("a law evaluates");
     // SAFETY: the buffers begin with structs of the size they state, and the columns outlive the call.
-    let status = unsafe {
-        evaluate(
-            null_mut(),
-            view_words.as_ptr().cast(),
-            output_words.as_mut_ptr().cast(),
-        )
-    };
+    let status = unsafe { evaluate(null_mut(), view_words.as_ptr().cast(), output_words.as_mut_ptr().cast()) };
     assert_eq!(status, WL_OK);
     for i in 0..3 {
         let right = constants[0] / constants[1] * pressure[i] * velocity[i] * 0.1;
-        assert!(
-            (increment[i] - right).abs() <= 1e-15 * right,
-            "{increment:?}"
-        );
+        assert!((increment[i] - right).abs() <= 1e-15 * right, "{increment:?}");
     }
-    assert!(
-        output_words[output_size / 8..].iter().all(|w| *w == -1),
-        "wrote behind the output"
-    );
+    assert!(output_words[output_size / 8..].iter().all(|w| *w == -1), "wrote behind the output");
 }
 
 /// Copies the first `bytes` bytes of a struct to the front of a buffer.

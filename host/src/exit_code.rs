@@ -150,7 +150,9 @@ fn of_solving(error: &SolveError) -> ExitCode {
             AdvanceError::Evaluate(PointError::Law(error)) => of_evaluating(error),
             AdvanceError::Evaluate(PointError::Batch(_)) => ExitCode::ProgramFault,
             AdvanceError::Evaluate(PointError::Direction { by_law: false, .. }) => ExitCode::InputWrong,
-            AdvanceError::Evaluate(PointError::Direction { .. } | PointError::SmallestStep(_) | PointError::NotLinear { .. })
+            AdvanceError::Evaluate(
+                PointError::Direction { .. } | PointError::SmallestStep(_) | PointError::NotLinear { .. },
+            )
             | AdvanceError::SmallestStep { .. } => ExitCode::LawFailed,
             AdvanceError::Tolerance { .. } => ExitCode::NumbersFailed,
         },

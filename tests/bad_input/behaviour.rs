@@ -123,7 +123,8 @@ fn a_false_claim_to_be_linear_in_dt_is_refused_before_it_is_relied_on() {
     );
     let room = Room::new();
     let path = law.path();
-    let ended = room.run(&["run", "scene.toml", "--law", path.to_str().expect("a plain name"), "--set", "law.constants=[1]"]);
+    let ended =
+        room.run(&["run", "scene.toml", "--law", path.to_str().expect("a plain name"), "--set", "law.constants=[1]"]);
     assert_eq!(ended.code, 3, "{} {}", ended.stdout, ended.stderr);
     for word in ["claims to be linear in dt", "at point ", "half as long"] {
         assert!(ended.stderr.contains(word), "{}", ended.stderr);

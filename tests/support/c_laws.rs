@@ -149,10 +149,7 @@ impl CLaw {
 }
 
 /// Evaluates a law at so many points with pressures 1, 2, .., slip 0.5 and K = 2; gives the increments.
-pub fn evaluate(
-    law: &dyn Evaluator,
-    points: usize,
-) -> (Result<Evaluation, EvaluateError>, Vec<f64>) {
+pub fn evaluate(law: &dyn Evaluator, points: usize) -> (Result<Evaluation, EvaluateError>, Vec<f64>) {
     let pressure: Vec<f64> = (0..points).map(|point| 1.0 + point as f64).collect();
     let batch = Batch::builder(law.descriptor(), points)
         .field(Field::Pressure, Values::PerPoint(&pressure))
@@ -161,10 +158,7 @@ pub fn evaluate(
         .build()
         .expect("every column fits");
     let (mut increment, mut direction) = (vec![0.0; points], vec![0.0; 3 * points]);
-    let mut outputs = Outputs {
-        direction: Some(&mut direction),
-        ..Outputs::new(&mut increment)
-    };
+    let mut outputs = Outputs { direction: Some(&mut direction), ..Outputs::new(&mut increment) };
     let result = law.evaluate(&batch, &mut outputs);
     (result, increment)
 }

@@ -44,10 +44,7 @@ pub fn fortran(test: &str) -> bool {
     if !found {
         // Straight to the stream: the harness keeps what `println!` writes when a test passes.
         writeln!(std::io::stdout(), "NOT RUN: {test}: {name} not found").expect("stdout is open");
-        assert!(
-            std::env::var("WEARLAW_NEED_FORTRAN").as_deref() != Ok("1"),
-            "{name} is needed and was not found"
-        );
+        assert!(std::env::var("WEARLAW_NEED_FORTRAN").as_deref() != Ok("1"), "{name} is needed and was not found");
     }
     found
 }
@@ -68,25 +65,15 @@ pub fn try_compile(source: &Path, include: &Path, out: &Path, more: &[&str]) -> 
             .arg(folder)
             .arg(include.join("wearlaw.f90")),
     };
-    let output = command
-        .arg(source)
-        .arg("-lm")
-        .current_dir(folder)
-        .output()
-        .expect("the compiler starts");
-    if output.status.success() {
-        Ok(())
-    } else {
-        Err(String::from_utf8_lossy(&output.stderr).into_owned())
-    }
+    let output = command.arg(source).arg("-lm").current_dir(folder).output().expect("the compiler starts");
+    if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
 }
 
 /// Compiles a law in a folder of its own and loads it.
 pub fn build(source: &Path) -> Native {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("law.so");
-    try_compile(source, &include(), &out, &[])
-        .unwrap_or_else(|e| panic!("{}: {e}", source.display()));
+    try_compile(source, &include(), &out, &[]).unwrap_or_else(|e| panic!("{}: {e}", source.display()));
     Native::open(&out, 0)
 }
 
@@ -105,8 +92,7 @@ impl Native {
         // SAFETY: the tests load laws only, and a law's entry has this type by the ABI.
         let entry: EntryFn = unsafe { *library.get::<EntryFn>(ENTRY_SYMBOL).expect("an entry") };
         // SAFETY: all bits zero is a value of these plain structs (null pointers, absent functions).
-        let (mut law, mut host): (LawTable, Host) =
-            unsafe { (std::mem::zeroed(), std::mem::zeroed()) };
+        let (mut law, mut host): (LawTable, Host) = unsafe { (std::mem::zeroed(), std::mem::zeroed()) };
         law.struct_size = size_of::<LawTable>() as i64;
         host.struct_size = size_of::<Host>() as i64;
         // SAFETY: both structs live through the call and carry their sizes, as the ABI asks.
@@ -115,18 +101,12 @@ impl Native {
         // SAFETY: as above; the answer past the last law is all that is asked.
         let past = unsafe { entry(index + 9, &host, &mut law) };
         assert_eq!(past, WL_NO_MORE);
-        Self {
-            law,
-            _library: library,
-        }
+        Self { law, _library: library }
     }
 
     /// The names of a law's quantities of one kind, in order.
     pub fn names(&self, kind: i32) -> Vec<String> {
-        (0..)
-            .map_while(|i| self.quantity(kind, i))
-            .map(|q| text(&q.name))
-            .collect()
+        (0..).map_while(|i| self.quantity(kind, i)).map(|q| text(&q.name)).collect()
     }
 
     /// One quantity, or nothing past the last.
@@ -134,10 +114,7 @@ impl Native {
         // SAFETY: all bits zero is a value of this plain struct.
         let mut quantity: Quantity = unsafe { std::mem::zeroed() };
         quantity.struct_size = size_of::<Quantity>() as i64;
-        let describe = self
-            .law
-            .describe
-            .expect("a law with quantities describes them");
+        let describe = self.law.describe.expect("a law with quantities describes them");
         // SAFETY: the struct lives through the call and carries its size.
         (unsafe { describe(kind, index, &mut quantity) } == WL_OK).then_some(quantity)
     }
@@ -148,20 +125,8 @@ impl Native {
         let mut instance = std::ptr::null_mut();
         let mut buffer = [0 as c_char; 64];
         // SAFETY: every pointer is to a local that lives through the call; the text size is the buffer's.
-        let status = unsafe {
-            create(
-                std::ptr::null(),
-                options.as_ptr(),
-                &mut instance,
-                buffer.as_mut_ptr(),
-                64,
-            )
-        };
-        if status == WL_OK {
-            Ok(instance)
-        } else {
-            Err((status, text(&buffer)))
-        }
+        let status = unsafe { create(std::ptr::null(), options.as_ptr(), &mut instance, buffer.as_mut_ptr(), 64) };
+        if status == WL_OK { Ok(instance) } else { Err((status, text(&buffer))) }
     }
 
     /// Frees an instance of this law.
@@ -201,10 +166,7 @@ pub fn output(increment: &mut [f64]) -> Output {
 
 /// A column over a slice.
 pub fn column(values: &[f64], step: i64) -> Column {
-    Column {
-        ptr: values.as_ptr(),
-        step,
-    }
+    Column { ptr: values.as_ptr(), step }
 }
 
 /// The column of a real field by its name.
@@ -221,28 +183,16 @@ pub fn field<'a>(view: &'a mut View, name: &str) -> Option<&'a mut Column> {
 
 /// A C text in a fixed array.
 pub fn text(chars: &[c_char]) -> String {
-    let bytes: Vec<u8> = chars
-        .iter()
-        .take_while(|c| **c != 0)
-        .map(|c| *c as u8)
-        .collect();
+    let bytes: Vec<u8> = chars.iter().take_while(|c| **c != 0).map(|c| *c as u8).collect();
     String::from_utf8(bytes).expect("the texts of the laws are ASCII")
 }
 
 /// Distance of two numbers in units in the last place.
 pub fn ulps(a: f64, b: f64) -> u64 {
     let place = |x: f64| {
-        if x.to_bits() >> 63 == 1 {
-            -((x.to_bits() << 1 >> 1) as i64)
-        } else {
-            x.to_bits() as i64
-        }
+        if x.to_bits() >> 63 == 1 { -((x.to_bits() << 1 >> 1) as i64) } else { x.to_bits() as i64 }
     };
-    if a.is_nan() || b.is_nan() {
-        u64::MAX
-    } else {
-        place(a).abs_diff(place(b))
-    }
+    if a.is_nan() || b.is_nan() { u64::MAX } else { place(a).abs_diff(place(b)) }
 }
 
 /// Even numbers between 0 and 1, the same in every run.
@@ -252,10 +202,7 @@ impl Iterator for Numbers {
     type Item = f64;
 
     fn next(&mut self) -> Option<f64> {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         Some((self.0 >> 11) as f64 / (1u64 << 53) as f64)
     }
 }

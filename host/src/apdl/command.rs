@@ -89,14 +89,8 @@ fn fields<'a>(statement: &Statement<'a>, limit: usize) -> Result<Fields<'a>, Box
         Fault::new(Problem::MissingComma { command }, statement.rest.span)
     })?;
     match fields.iter().skip(limit).find(|field| !field.is_blank()) {
-        Some(extra) => Err(Fault::new(
-            Problem::ExtraField { command, limit },
-            extra.span,
-        )),
-        None => Ok(Fields {
-            fields,
-            span: statement.span,
-        }),
+        Some(extra) => Err(Fault::new(Problem::ExtraField { command, limit }, extra.span)),
+        None => Ok(Fields { fields, span: statement.span }),
     }
 }
 
@@ -128,12 +122,7 @@ impl<'a> Fields<'a> {
             return Ok(Some(value as i64));
         }
         let what = what.to_owned();
-        let problem = Problem::NotWhole {
-            what,
-            value,
-            least,
-            most,
-        };
+        let problem = Problem::NotWhole { what, value, least, most };
         Err(Fault::new(problem, field.span))
     }
 }
@@ -141,10 +130,7 @@ impl<'a> Fields<'a> {
 /// The largest material number that `law.material` of a scene can name.
 const LARGEST_MATERIAL: i64 = u32::MAX as i64;
 
-pub(super) fn open_table(
-    statement: &Statement<'_>,
-    parameters: &Parameters,
-) -> Result<OpenTable, Box<Fault>> {
+pub(super) fn open_table(statement: &Statement<'_>, parameters: &Parameters) -> Result<OpenTable, Box<Fault>> {
     let fields = fields(statement, 5)?;
     let option = option(&fields)?;
     let material = fields.whole(1, "MATID of TB", (1, LARGEST_MATERIAL), parameters)?;
@@ -164,15 +150,10 @@ fn option(fields: &Fields<'_>) -> Result<TableOption, Box<Fault>> {
     let Some(field) = fields.get(4) else {
         return Err(Fault::new(Problem::MissingOption, fields.span));
     };
-    let known = TableOption::ALL
-        .into_iter()
-        .find(|option| option.name().eq_ignore_ascii_case(field.text));
+    let known = TableOption::ALL.into_iter().find(|option| option.name().eq_ignore_ascii_case(field.text));
     known.ok_or_else(|| {
         let names = TableOption::ALL.into_iter().map(TableOption::name);
-        let problem = Problem::UnknownOption {
-            found: field.text.to_owned(),
-            nearest: nearest(field.text, names),
-        };
+        let problem = Problem::UnknownOption { found: field.text.to_owned(), nearest: nearest(field.text, names) };
         Fault::new(problem, field.span)
     })
 }
@@ -191,34 +172,22 @@ pub(super) fn data(statement: &Statement<'_>, parameters: &Parameters) -> Result
             values.push((place, value, span));
         }
     }
-    Ok(Data {
-        location,
-        values,
-        span: statement.span,
-    })
+    Ok(Data { location, values, span: statement.span })
 }
 
-pub(super) fn field_value(
-    statement: &Statement<'_>,
-    parameters: &Parameters,
-) -> Result<FieldValue, Box<Fault>> {
+pub(super) fn field_value(statement: &Statement<'_>, parameters: &Parameters) -> Result<FieldValue, Box<Fault>> {
     let fields = fields(statement, 2)?;
     let missing = |what: &str| {
         let what = what.to_owned();
         Fault::new(Problem::MissingValue { what }, fields.span)
     };
-    let variable = fields
-        .get(0)
-        .ok_or_else(|| missing("the type of TBFIELD"))?;
+    let variable = fields.get(0).ok_or_else(|| missing("the type of TBFIELD"))?;
     let variable = match variable.text.to_ascii_uppercase().as_str() {
         "TIME" => Variable::Time,
         "TEMP" => Variable::Temperature,
         _ => {
             let found = variable.text.to_owned();
-            return Err(Fault::new(
-                Problem::UnknownVariable { found },
-                variable.span,
-            ));
+            return Err(Fault::new(Problem::UnknownVariable { found }, variable.span));
         }
     };
     let value = fields.get(1).ok_or_else(|| missing("TBFIELD"))?;
@@ -230,10 +199,7 @@ pub(super) fn field_value(
     })
 }
 
-pub(super) fn temperature(
-    statement: &Statement<'_>,
-    parameters: &Parameters,
-) -> Result<FieldValue, Box<Fault>> {
+pub(super) fn temperature(statement: &Statement<'_>, parameters: &Parameters) -> Result<FieldValue, Box<Fault>> {
     let fields = fields(statement, 2)?;
     if let Some(mode) = fields.get(1) {
         return Err(Fault::new(Problem::ModifiedTemperature, mode.span));
@@ -243,10 +209,5 @@ pub(super) fn temperature(
         // blank TEMP: the documented default of TBTEMP
         None => 0.0,
     };
-    Ok(FieldValue {
-        command: "TBTEMP",
-        variable: Variable::Temperature,
-        value,
-        span: statement.span,
-    })
+    Ok(FieldValue { command: "TBTEMP", variable: Variable::Temperature, value, span: statement.span })
 }

@@ -86,13 +86,9 @@ impl Deck {
     /// The first thing that is wrong with a wear command, with its line.
     pub fn parse(text: &str, source: &str) -> Result<Deck, DeckError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let (materials, notes) = Reader::read(text)
-            .map_err(|fault| DeckError::Command(Box::new(Diagnostic::new(*fault, text, source))))?;
-        Ok(Deck {
-            source: source.to_owned(),
-            materials,
-            notes,
-        })
+        let (materials, notes) =
+            Reader::read(text).map_err(|fault| DeckError::Command(Box::new(Diagnostic::new(*fault, text, source))))?;
+        Ok(Deck { source: source.to_owned(), materials, notes })
     }
 
     /// Reads the wear commands of a file, in any 8-bit encoding that contains ASCII: other bytes do no harm in
@@ -101,14 +97,8 @@ impl Deck {
     /// # Errors
     /// The file cannot be read, or what [`Deck::parse`] finds.
     pub fn read(path: &Path) -> Result<Deck, DeckError> {
-        let bytes = std::fs::read(path).map_err(|cause| DeckError::Read {
-            path: path.to_owned(),
-            cause,
-        })?;
-        Deck::parse(
-            &String::from_utf8_lossy(&bytes),
-            &path.display().to_string(),
-        )
+        let bytes = std::fs::read(path).map_err(|cause| DeckError::Read { path: path.to_owned(), cause })?;
+        Deck::parse(&String::from_utf8_lossy(&bytes), &path.display().to_string())
     }
 
     /// The material with the number `chosen`, or the only one there is.
@@ -124,13 +114,7 @@ impl Deck {
             (None, [only]) => Ok(only),
             (None, _) => Err(DeckError::Several { source_name, found }),
             (Some(chosen), all) => {
-                all.iter()
-                    .find(|m| m.id == chosen)
-                    .ok_or(DeckError::NoSuchMaterial {
-                        source_name,
-                        chosen,
-                        found,
-                    })
+                all.iter().find(|m| m.id == chosen).ok_or(DeckError::NoSuchMaterial { source_name, chosen, found })
             }
         }
     }

@@ -38,14 +38,8 @@ impl Excerpt {
     fn of(text: &str, span: Span) -> Self {
         let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
         let bytes = text.as_bytes();
-        let begin = bytes[..span.start]
-            .iter()
-            .rposition(is_end)
-            .map_or(0, |at| at + 1);
-        let end = bytes[span.start..]
-            .iter()
-            .position(is_end)
-            .map_or(text.len(), |at| span.start + at);
+        let begin = bytes[..span.start].iter().rposition(is_end).map_or(0, |at| at + 1);
+        let end = bytes[span.start..].iter().position(is_end).map_or(text.len(), |at| span.start + at);
         Excerpt {
             line: span.line,
             text: text[begin..end].to_owned(),
@@ -66,9 +60,7 @@ impl Diagnostic {
             source: source.to_owned(),
             line: excerpt.line,
             column: excerpt.column(),
-            related: fault
-                .related
-                .map(|(span, label)| (Excerpt::of(text, span), label)),
+            related: fault.related.map(|(span, label)| (Excerpt::of(text, span), label)),
             excerpt,
         }
     }
@@ -87,11 +79,7 @@ impl Diagnostic {
                 Snippet::source(&excerpt.text)
                     .line_start(excerpt.line)
                     .path(&self.source)
-                    .annotation(
-                        AnnotationKind::Context
-                            .span(excerpt.underline.clone())
-                            .label(*label),
-                    ),
+                    .annotation(AnnotationKind::Context.span(excerpt.underline.clone()).label(*label)),
             );
         }
         Renderer::plain().render(&[group])
@@ -100,13 +88,7 @@ impl Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Diagnostic {
-            source,
-            line,
-            column,
-            problem,
-            ..
-        } = self;
+        let Diagnostic { source, line, column, problem, .. } = self;
         write!(f, "{source}:{line}:{column}: {problem}")
     }
 }

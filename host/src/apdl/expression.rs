@@ -16,13 +16,8 @@ const DEEPEST: usize = 64;
 type Function = (&'static str, fn(f64) -> f64);
 
 /// The functions that are read; sines are not, since `*AFUN` may have changed their unit.
-const FUNCTIONS: [Function; 5] = [
-    ("SQRT", f64::sqrt),
-    ("ABS", f64::abs),
-    ("EXP", f64::exp),
-    ("LOG", f64::ln),
-    ("LOG10", f64::log10),
-];
+const FUNCTIONS: [Function; 5] =
+    [("SQRT", f64::sqrt), ("ABS", f64::abs), ("EXP", f64::exp), ("LOG", f64::ln), ("LOG10", f64::log10)];
 
 /// Why a field has no value.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -30,25 +25,16 @@ const FUNCTIONS: [Function; 5] = [
 #[allow(missing_docs, reason = "the message of each variant names its fields")]
 pub enum ExpressionError {
     #[error("`{name}` is neither a number nor a parameter defined above{}", suggestion(.nearest))]
-    Undefined {
-        name: String,
-        nearest: Option<String>,
-    },
+    Undefined { name: String, nearest: Option<String> },
     #[error(
         "parameter `{name}` is set by {command} on line {line}, which is not evaluated: expected `{name}=` and a number"
     )]
-    NotEvaluated {
-        name: String,
-        command: String,
-        line: usize,
-    },
+    NotEvaluated { name: String, command: String, line: usize },
     #[error("`{text}` is not a number")]
     Malformed { text: String },
     #[error("`{text}` is beyond what a 64-bit number holds")]
     OutOfRange { text: String },
-    #[error(
-        "unknown function `{name}`: expected SQRT, ABS, EXP, LOG or LOG10 (array elements are not read)"
-    )]
+    #[error("unknown function `{name}`: expected SQRT, ABS, EXP, LOG or LOG10 (array elements are not read)")]
     UnknownFunction { name: String },
     #[error("found `{}`, expected {expected}", .found.escape_debug())]
     Unexpected { found: char, expected: &'static str },
@@ -58,9 +44,7 @@ pub enum ExpressionError {
     NotFinite,
     #[error("parentheses, signs and exponents are nested more than {DEEPEST} deep")]
     TooDeep,
-    #[error(
-        "a blank before `*` makes the rest of the line a comment for the solver: expected no blank, or `!`"
-    )]
+    #[error("a blank before `*` makes the rest of the line a comment for the solver: expected no blank, or `!`")]
     BlankBeforeStar,
 }
 
@@ -68,19 +52,8 @@ pub enum ExpressionError {
 ///
 /// # Errors
 /// The part of the field that is wrong, or the definition of a parameter it uses.
-pub(super) fn evaluate(
-    field: &Field<'_>,
-    what: &str,
-    parameters: &Parameters,
-) -> Result<f64, Box<Fault>> {
-    let mut parser = Parser {
-        text: field.text,
-        at: 0,
-        depth: 0,
-        field: field.span,
-        what,
-        parameters,
-    };
+pub(super) fn evaluate(field: &Field<'_>, what: &str, parameters: &Parameters) -> Result<f64, Box<Fault>> {
+    let mut parser = Parser { text: field.text, at: 0, depth: 0, field: field.span, what, parameters };
     let value = parser.sum()?;
     match parser.peek() {
         None => Ok(value),
@@ -110,11 +83,7 @@ impl Parser<'_> {
     }
 
     fn span(&self, start: usize, end: usize) -> Span {
-        Span {
-            line: self.field.line,
-            start: self.field.start + start,
-            end: self.field.start + end,
-        }
+        Span { line: self.field.line, start: self.field.start + start, end: self.field.start + end }
     }
 
     /// The next character that is not blank.
@@ -144,11 +113,7 @@ impl Parser<'_> {
     }
 
     fn finite(&self, value: f64, start: usize) -> Result<f64, Box<Fault>> {
-        if value.is_finite() {
-            Ok(value)
-        } else {
-            Err(self.fault(ExpressionError::NotFinite, start, self.at))
-        }
+        if value.is_finite() { Ok(value) } else { Err(self.fault(ExpressionError::NotFinite, start, self.at)) }
     }
 
     fn sum(&mut self) -> Result<f64, Box<Fault>> {
@@ -258,9 +223,7 @@ impl Parser<'_> {
         let name = &self.text[start..self.at];
         let end = self.at;
         if self.take("(") {
-            let function = FUNCTIONS
-                .iter()
-                .find(|(known, _)| known.eq_ignore_ascii_case(name));
+            let function = FUNCTIONS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
             let Some((_, function)) = function else {
                 let name = name.to_owned();
                 return Err(self.fault(ExpressionError::UnknownFunction { name }, start, end));
@@ -273,16 +236,10 @@ impl Parser<'_> {
             Some(Parameter::Value(value)) => Ok(*value),
             Some(Parameter::Unknown { command, line }) => {
                 let (command, line) = (command.clone(), *line);
-                let error = ExpressionError::NotEvaluated {
-                    name,
-                    command,
-                    line,
-                };
+                let error = ExpressionError::NotEvaluated { name, command, line };
                 Err(self.fault(error, start, end))
             }
-            Some(Parameter::Faulty(fault)) => {
-                Err(fault.clone().beside(self.span(start, end), "needed here"))
-            }
+            Some(Parameter::Faulty(fault)) => Err(fault.clone().beside(self.span(start, end), "needed here")),
             None => {
                 let nearest = self.parameters.nearest(&name);
                 Err(self.fault(ExpressionError::Undefined { name, nearest }, start, end))

@@ -56,10 +56,7 @@ impl<'a> Field<'a> {
         let start = end - kept.len();
         let kept = kept.trim_end();
         let end = start + kept.len();
-        Field {
-            text: kept,
-            span: Span { line, start, end },
-        }
+        Field { text: kept, span: Span { line, start, end } }
     }
 
     pub fn is_blank(&self) -> bool {
@@ -120,12 +117,7 @@ impl<'a> Statement<'a> {
 
 /// All statements of a deck in order.
 pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
-    Lines {
-        text,
-        next: 0,
-        line: 0,
-    }
-    .flat_map(move |(line, start, end)| line_statements(text, line, start, end))
+    Lines { text, next: 0, line: 0 }.flat_map(move |(line, start, end)| line_statements(text, line, start, end))
 }
 
 /// Line number, first byte and end of every line; a line ends with LF, CR LF or CR.
@@ -144,10 +136,7 @@ impl Iterator for Lines<'_> {
             return None;
         }
         let bytes = self.text.as_bytes();
-        let end = bytes[start..]
-            .iter()
-            .position(|b| matches!(b, b'\n' | b'\r'))
-            .map_or(bytes.len(), |at| start + at);
+        let end = bytes[start..].iter().position(|b| matches!(b, b'\n' | b'\r')).map_or(bytes.len(), |at| start + at);
         self.next = match bytes.get(end..) {
             Some([b'\r', b'\n', ..]) => end + 2,
             _ => end + 1,
@@ -205,9 +194,9 @@ fn begins_with_any(text: &str, names: &[&str]) -> bool {
 
 /// `/COM`, `C***`, and a lone `*`, which the solver reads as the start of a comment.
 fn is_comment(text: &str) -> bool {
-    let lone_star = text.strip_prefix('*').is_some_and(|after| {
-        after.is_empty() || after.starts_with('*') || after.starts_with(char::is_whitespace)
-    });
+    let lone_star = text
+        .strip_prefix('*')
+        .is_some_and(|after| after.is_empty() || after.starts_with('*') || after.starts_with(char::is_whitespace));
     lone_star || begins_with_any(text, &["/COM", "C***"])
 }
 
@@ -226,10 +215,8 @@ fn statement<'a>(text: &'a str, piece: Field<'a>) -> Option<Statement<'a>> {
     if !named {
         return Some(make(Kind::Data, 0, 0));
     }
-    let name_length = piece
-        .text
-        .find(|c: char| matches!(c, ',' | '=' | '(') || c.is_whitespace())
-        .unwrap_or(piece.text.len());
+    let name_length =
+        piece.text.find(|c: char| matches!(c, ',' | '=' | '(') || c.is_whitespace()).unwrap_or(piece.text.len());
     let after = &piece.text[name_length..];
     let gap = after.len() - after.trim_start().len();
     let follows = after.trim_start();
@@ -251,8 +238,6 @@ fn statement<'a>(text: &'a str, piece: Field<'a>) -> Option<Statement<'a>> {
 /// A letter or underscore, then letters, digits and underscores.
 pub(super) fn is_parameter_name(text: &str) -> bool {
     let mut chars = text.chars();
-    chars
-        .next()
-        .is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
+    chars.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
         && chars.all(|c| c.is_ascii_alphanumeric() || c == '_')
 }

@@ -92,10 +92,7 @@ pub fn to_toml(material: &WearMaterial) -> Result<String, LowerError> {
         let needed = material.option != (LawOption::User { constants: 0 });
         let without_point = |row: &TableRow| row.time.is_none() && row.temperature.is_none();
         if rows.iter().any(without_point) || (rows.is_empty() && needed) {
-            return Err(LowerError::NoPoint {
-                material: material.id,
-                rows: rows.len(),
-            });
+            return Err(LowerError::NoPoint { material: material.id, rows: rows.len() });
         }
         for (at, row) in rows.iter().enumerate() {
             text.push_str("\n[[law.table]]\n");
@@ -124,19 +121,14 @@ fn title(material: &WearMaterial) -> &'static str {
 fn constants(material: &WearMaterial, at: usize, row: &TableRow) -> Result<String, LowerError> {
     let value = |location: usize| {
         let given = row.constants.get(location - 1).copied().flatten();
-        let given = given.ok_or(LowerError::MissingConstant {
-            material: material.id,
-            row: at + 1,
-            location,
-        })?;
+        let given = given.ok_or(LowerError::MissingConstant { material: material.id, row: at + 1, location })?;
         number(material, given)
     };
     match material.option {
         LawOption::Archard => {
             let named = ARCHARD_NAMES.iter().zip(1..);
-            let pairs: Result<Vec<_>, LowerError> = named
-                .map(|(name, location)| Ok(format!("{name} = {}", value(location)?)))
-                .collect();
+            let pairs: Result<Vec<_>, LowerError> =
+                named.map(|(name, location)| Ok(format!("{name} = {}", value(location)?))).collect();
             Ok(format!("{{ {} }}", pairs?.join(", ")))
         }
         LawOption::User { constants } => {
@@ -151,11 +143,7 @@ fn common_controls(material: &WearMaterial) -> Result<Controls, LowerError> {
     let mut first: Option<Controls> = None;
     for (row, table) in (1..).zip(&material.tables) {
         let material = material.id;
-        let found = controls(&table.constants).map_err(|cause| LowerError::Controls {
-            material,
-            row,
-            cause,
-        })?;
+        let found = controls(&table.constants).map_err(|cause| LowerError::Controls { material, row, cause })?;
         if !first.get_or_insert(found).same_meaning(&found) {
             return Err(LowerError::ControlsDiffer { material, row });
         }
@@ -192,21 +180,14 @@ fn write_controls(text: &mut String, controls: &Controls) {
     }
 }
 
-fn write_scaling(
-    text: &mut String,
-    material: &WearMaterial,
-    scaling: &Scaling,
-) -> Result<(), LowerError> {
+fn write_scaling(text: &mut String, material: &WearMaterial, scaling: &Scaling) -> Result<(), LowerError> {
     let kind = match scaling.kind {
         ScalingKind::Auto => "auto",
         ScalingKind::Cycle => "cycle",
     };
     let safety = number(material, scaling.safety)?;
     let maximum = number(material, scaling.maximum)?;
-    let _ = write!(
-        text,
-        "\n[scaling]\nkind = \"{kind}\"\nsafety = {safety}\nmaximum = {maximum}\n"
-    );
+    let _ = write!(text, "\n[scaling]\nkind = \"{kind}\"\nsafety = {safety}\nmaximum = {maximum}\n");
     Ok(())
 }
 
@@ -221,9 +202,5 @@ fn number(material: &WearMaterial, value: f64) -> Result<String, LowerError> {
 /// The shortest digits that give the same bits; with an exponent where they would be hard to count.
 fn finite_number(value: f64) -> String {
     let size = value.abs();
-    if size == 0.0 || (1e-3..1e6).contains(&size) {
-        format!("{value:?}")
-    } else {
-        format!("{value:e}")
-    }
+    if size == 0.0 || (1e-3..1e6).contains(&size) { format!("{value:?}") } else { format!("{value:e}") }
 }

@@ -29,23 +29,12 @@ pub enum Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Note::PassedOver {
-                command,
-                count,
-                first_line,
-            } => {
+            Note::PassedOver { command, count, first_line } => {
                 let command = command.escape_debug();
                 let times = if *count == 1 { "time" } else { "times" };
-                write!(
-                    f,
-                    "passed over {command}: {count} {times}, first on line {first_line}"
-                )
+                write!(f, "passed over {command}: {count} {times}, first on line {first_line}")
             }
-            Note::DirectionScaled {
-                material,
-                line,
-                given: [x, y, z],
-            } => write!(
+            Note::DirectionScaled { material, line, given: [x, y, z] } => write!(
                 f,
                 "material {material} (line {line}): C6 to C8 ({x}, {y}, {z}) are not of length 1 and are used scaled to it"
             ),

@@ -16,65 +16,30 @@ pub enum Problem {
     #[error("`{command}` has {limit} fields here, found another")]
     ExtraField { command: String, limit: usize },
     #[error("unknown TBOPT `{found}` of TB,WEAR: expected ARCD, USER, AUTS or CBCS{}", suggestion(.nearest))]
-    UnknownOption {
-        found: String,
-        nearest: Option<String>,
-    },
+    UnknownOption { found: String, nearest: Option<String> },
     #[error("TB,WEAR without TBOPT: expected ARCD, USER, AUTS or CBCS in its sixth field")]
     MissingOption,
     #[error("`{command}` before any TB: expected a TB,WEAR above it")]
     NoTable { command: String },
-    #[error(
-        "`{command}` changes a wear table in a way that is not read: expected TB, TBDATA, TBFIELD or TBTEMP"
-    )]
+    #[error("`{command}` changes a wear table in a way that is not read: expected TB, TBDATA, TBFIELD or TBTEMP")]
     UnreadTableCommand { command: String },
     #[error(
         "`{command}` stands inside {block} of line {line}, which is not evaluated: expected wear commands outside of blocks"
     )]
-    InsideBlock {
-        command: String,
-        block: String,
-        line: usize,
-    },
+    InsideBlock { command: String, block: String, line: usize },
     #[error("{what}: {error}")]
-    Expression {
-        what: String,
-        error: ExpressionError,
-    },
+    Expression { what: String, error: ExpressionError },
     #[error("{what} = {value} is not a whole number from {least} to {most}")]
-    NotWhole {
-        what: String,
-        value: f64,
-        least: i64,
-        most: i64,
-    },
+    NotWhole { what: String, value: f64, least: i64, most: i64 },
     #[error("STLOC = {location} is out of range: {table} has constants C1 to C{most}")]
-    LocationOutOfRange {
-        location: f64,
-        table: String,
-        most: usize,
-    },
+    LocationOutOfRange { location: f64, table: String, most: usize },
     #[error("found constant C{location}: {table} has constants C1 to C{most}")]
-    TooManyConstants {
-        location: usize,
-        table: String,
-        most: usize,
-    },
+    TooManyConstants { location: usize, table: String, most: usize },
     #[error("C{location} ({name}) has no value and no default{place}")]
-    MissingConstant {
-        location: usize,
-        name: String,
-        place: String,
-    },
+    MissingConstant { location: usize, name: String, place: String },
     #[error("TB,WEAR,{material} with {option} has no TBDATA: expected constants C1 to C{least}")]
-    NoConstants {
-        material: i64,
-        option: String,
-        least: usize,
-    },
-    #[error(
-        "material {material} has {option} already: expected one wear law and one scaling per material"
-    )]
+    NoConstants { material: i64, option: String, least: usize },
+    #[error("material {material} has {option} already: expected one wear law and one scaling per material")]
     DuplicateOption { material: i64, option: String },
     #[error(
         "material {material} scales the wear increment but has no law: expected TB,WEAR,{material} with ARCD or USER"
@@ -90,9 +55,7 @@ pub enum Problem {
     ScalingTable { command: String },
     #[error("{variable} = {value} has no TBDATA: expected constants before the next value")]
     NoDataAtPoint { variable: String, value: f64 },
-    #[error(
-        "constants given {found}, those above {expected}: expected the same field variables throughout"
-    )]
+    #[error("constants given {found}, those above {expected}: expected the same field variables throughout")]
     OtherVariables { found: String, expected: String },
     #[error(
         "{variable} = {value} goes back or is out of order: expected ascending values, each variable's whole range before the other's next value"
@@ -101,19 +64,12 @@ pub enum Problem {
     #[error("the point {point} is given already: expected ascending values")]
     Repeats { point: String },
     #[error("the table is not a full grid: no constants at {missing} ({times} times x {temperatures} temperatures, found {rows} of {} points)", .times * .temperatures)]
-    IncompleteGrid {
-        missing: String,
-        times: usize,
-        temperatures: usize,
-        rows: usize,
-    },
+    IncompleteGrid { missing: String, times: usize, temperatures: usize, rows: usize },
     #[error("KMOD of TBTEMP is not read: expected the temperature only")]
     ModifiedTemperature,
     #[error("{0}")]
     Controls(#[from] ControlsError),
-    #[error(
-        "C5 to C8 differ from those of the first row: expected the same controls in every row of a table"
-    )]
+    #[error("C5 to C8 differ from those of the first row: expected the same controls in every row of a table")]
     ControlsDiffer,
     #[error("wear scaling factor C1 = {value}: expected more than 0 and less than 1")]
     Safety { value: f64 },
@@ -123,16 +79,11 @@ pub enum Problem {
 
 /// `; did you mean ..?` or nothing.
 pub(super) fn suggestion(nearest: &Option<String>) -> String {
-    nearest
-        .as_ref()
-        .map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+    nearest.as_ref().map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
 
 /// The candidate that differs from `found` in the fewest letters, if it is close enough to be a slip.
-pub(super) fn nearest<'a>(
-    found: &str,
-    candidates: impl Iterator<Item = &'a str>,
-) -> Option<String> {
+pub(super) fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
     let found = found.to_ascii_uppercase();
     let allowed = (found.chars().count() / 3).max(1);
     candidates
@@ -153,11 +104,7 @@ pub(super) struct Fault {
 
 impl Fault {
     pub fn new(problem: impl Into<Problem>, span: Span) -> Box<Self> {
-        Box::new(Fault {
-            problem: problem.into(),
-            span,
-            related: None,
-        })
+        Box::new(Fault { problem: problem.into(), span, related: None })
     }
 
     pub fn beside(mut self: Box<Self>, span: Span, label: &'static str) -> Box<Self> {

@@ -133,10 +133,7 @@ impl Reader {
         let first = fields.first().filter(|f| is_parameter_name(f.text));
         match (name.as_str(), first) {
             ("*SET", Some(parameter)) => {
-                let blank = Field {
-                    text: "",
-                    span: parameter.span,
-                };
+                let blank = Field { text: "", span: parameter.span };
                 let value = fields.get(1).unwrap_or(&blank);
                 return self.assign(parameter.text, value, span);
             }
@@ -186,11 +183,7 @@ impl Reader {
         });
         if let Some(earlier) = earlier {
             let material = open.material;
-            let option = if open.option.is_law() {
-                "a wear law"
-            } else {
-                "a scaling"
-            };
+            let option = if open.option.is_law() { "a wear law" } else { "a scaling" };
             let option = option.to_owned();
             let fault = Fault::new(Problem::DuplicateOption { material, option }, open.span);
             return Err(fault.beside(earlier, "given here"));
@@ -224,11 +217,7 @@ impl Reader {
         let Some((block, line)) = self.blocks.last() else {
             return Ok(());
         };
-        let problem = Problem::InsideBlock {
-            command: statement.upper_name(),
-            block: block.clone(),
-            line: *line,
-        };
+        let problem = Problem::InsideBlock { command: statement.upper_name(), block: block.clone(), line: *line };
         Err(Fault::new(problem, statement.span))
     }
 
@@ -237,10 +226,7 @@ impl Reader {
         let begins_any = |names: &[&str]| names.iter().any(|four| statement.begins(four));
         let open = matches!(self.active, Active::Wear(_)) && begins_any(&TABLE_CHANGES);
         let named = begins_any(&NAMED_TABLE_CHANGES)
-            && statement
-                .fields()
-                .and_then(|fields| fields.first().map(|label| is_wear(label.text)))
-                .unwrap_or(false);
+            && statement.fields().and_then(|fields| fields.first().map(|label| is_wear(label.text))).unwrap_or(false);
         if open || named {
             let command = statement.upper_name();
             let problem = Problem::UnreadTableCommand { command };
@@ -258,18 +244,13 @@ impl Reader {
         let draft = self.draft(open.material);
         match finished {
             Finished::Scaling(scaling) => draft.scaling = Some((scaling, open.span)),
-            Finished::Law {
-                option,
-                rows,
-                scaled_from,
-            } => {
+            Finished::Law { option, rows, scaled_from } => {
                 draft.law = Some((option, rows, open.span));
-                self.other_notes
-                    .extend(scaled_from.map(|given| Note::DirectionScaled {
-                        material: open.material,
-                        line: open.span.line,
-                        given,
-                    }));
+                self.other_notes.extend(scaled_from.map(|given| Note::DirectionScaled {
+                    material: open.material,
+                    line: open.span.line,
+                    given,
+                }));
             }
         }
         Ok(())
@@ -278,11 +259,7 @@ impl Reader {
     fn draft(&mut self, id: i64) -> &mut Draft {
         let at = self.drafts.iter().position(|draft| draft.id == id);
         let at = at.unwrap_or_else(|| {
-            self.drafts.push(Draft {
-                id,
-                law: None,
-                scaling: None,
-            });
+            self.drafts.push(Draft { id, law: None, scaling: None });
             self.drafts.len() - 1
         });
         &mut self.drafts[at]
@@ -318,11 +295,7 @@ impl Reader {
                 (None, None) => {}
             }
         }
-        let note = |(command, count, first_line)| Note::PassedOver {
-            command,
-            count,
-            first_line,
-        };
+        let note = |(command, count, first_line)| Note::PassedOver { command, count, first_line };
         let mut notes: Vec<Note> = self.passed_over.into_iter().map(note).collect();
         notes.extend(self.other_notes);
         Ok((materials, notes))

@@ -44,20 +44,13 @@ impl Row {
     /// `time = 1, temperature = 20`, or nothing.
     pub fn point(&self) -> String {
         let named = [("time", self.time), ("temperature", self.temperature)];
-        let parts = named
-            .iter()
-            .filter_map(|(name, value)| value.map(|value| format!("{name} = {value}")));
+        let parts = named.iter().filter_map(|(name, value)| value.map(|value| format!("{name} = {value}")));
         parts.collect::<Vec<_>>().join(", ")
     }
 }
 
 impl From<Row> for TableRow {
     fn from(row: Row) -> Self {
-        TableRow {
-            time: row.time,
-            temperature: row.temperature,
-            constants: row.values(),
-            span: row.span,
-        }
+        TableRow { time: row.time, temperature: row.temperature, constants: row.values(), span: row.span }
     }
 }

@@ -17,12 +17,7 @@ use crate::scene::documented::{Controls, ControlsError, DOCUMENTED_CONSTANTS, co
 const DEFAULT_SAFETY: f64 = 0.1;
 const DEFAULT_MAXIMUM: f64 = 1e5;
 
-const ARCHARD_NAMES: [&str; 4] = [
-    "wear coefficient K",
-    "hardness H",
-    "pressure exponent m",
-    "velocity exponent n",
-];
+const ARCHARD_NAMES: [&str; 4] = ["wear coefficient K", "hardness H", "pressure exponent m", "velocity exponent n"];
 
 /// What a table is worth once it is complete.
 #[derive(Debug)]
@@ -114,18 +109,12 @@ impl WearTable {
         let most = self.most_constants();
         let first = match data.location {
             None => self.next_location,
-            Some((location, _))
-                if location.fract() == 0.0 && (1.0..=most as f64).contains(&location) =>
-            {
+            Some((location, _)) if location.fract() == 0.0 && (1.0..=most as f64).contains(&location) => {
                 location as usize
             }
             Some((location, span)) => {
                 let table = self.title();
-                let problem = Problem::LocationOutOfRange {
-                    location,
-                    table,
-                    most,
-                };
+                let problem = Problem::LocationOutOfRange { location, table, most };
                 return Err(Fault::new(problem, span));
             }
         };
@@ -139,11 +128,7 @@ impl WearTable {
             let location = first + place;
             if location > most {
                 let table = self.title();
-                let problem = Problem::TooManyConstants {
-                    location,
-                    table,
-                    most,
-                };
+                let problem = Problem::TooManyConstants { location, table, most };
                 return Err(Fault::new(problem, span));
             }
             if let Some(row) = self.rows.last_mut() {
@@ -189,13 +174,7 @@ impl WearTable {
                     Variable::Temperature => last.temperature > Some(v.value),
                 };
                 let back = waiting.iter().find(lower).or(waiting.last());
-                if let Some(FieldValue {
-                    variable,
-                    value,
-                    span,
-                    ..
-                }) = back
-                {
+                if let Some(FieldValue { variable, value, span, .. }) = back {
                     let variable = variable.name().to_owned();
                     let value = *value;
                     return Err(Fault::new(Problem::GoesBack { variable, value }, *span));
@@ -220,9 +199,7 @@ impl WearTable {
     }
 
     fn finish_archard(self) -> Result<Finished, Box<Fault>> {
-        self.check_rows(ARCHARD_NAMES.len(), |location| {
-            ARCHARD_NAMES[location - 1].to_owned()
-        })?;
+        self.check_rows(ARCHARD_NAMES.len(), |location| ARCHARD_NAMES[location - 1].to_owned())?;
         let mut first: Option<Controls> = None;
         for row in &self.rows {
             let found = controls(&row.values()).map_err(|error| {
@@ -250,11 +227,7 @@ impl WearTable {
         let highest = self.rows.iter().map(|row| row.constants.len()).max();
         let constants = self.open.constants.or(highest).unwrap_or(0);
         self.check_rows(constants, |_| format!("of {constants} of the law"))?;
-        Ok(Finished::Law {
-            option: LawOption::User { constants },
-            scaled_from: None,
-            rows: self.into_rows(),
-        })
+        Ok(Finished::Law { option: LawOption::User { constants }, scaled_from: None, rows: self.into_rows() })
     }
 
     fn finish_scaling(self, kind: ScalingKind) -> Result<Finished, Box<Fault>> {
@@ -272,11 +245,7 @@ impl WearTable {
             let value = maximum;
             return Err(Fault::new(Problem::Maximum { value }, maximum_span));
         }
-        Ok(Finished::Scaling(Scaling {
-            kind,
-            safety,
-            maximum,
-        }))
+        Ok(Finished::Scaling(Scaling { kind, safety, maximum }))
     }
 
     /// Every row has its first `least` constants, and the rows form a full grid.
@@ -296,11 +265,7 @@ impl WearTable {
                     at if at.is_empty() => at,
                     at => format!(" at {at}"),
                 };
-                let problem = Problem::MissingConstant {
-                    location,
-                    name: name(location),
-                    place,
-                };
+                let problem = Problem::MissingConstant { location, name: name(location), place };
                 return Err(Fault::new(problem, row.span));
             }
         }
@@ -316,22 +281,13 @@ impl WearTable {
         };
         let times = distinct(|row| row.time);
         let temperatures = distinct(|row| row.temperature);
-        if times.is_empty()
-            || temperatures.is_empty()
-            || times.len() * temperatures.len() == self.rows.len()
-        {
+        if times.is_empty() || temperatures.is_empty() || times.len() * temperatures.len() == self.rows.len() {
             return Ok(());
         }
-        let pairs = times
-            .iter()
-            .flat_map(|time| temperatures.iter().map(move |t| (*time, *t)));
+        let pairs = times.iter().flat_map(|time| temperatures.iter().map(move |t| (*time, *t)));
         for (time, temperature) in pairs {
-            let missing = Row {
-                time: Some(time),
-                temperature: Some(temperature),
-                constants: Vec::new(),
-                span: self.open.span,
-            };
+            let missing =
+                Row { time: Some(time), temperature: Some(temperature), constants: Vec::new(), span: self.open.span };
             if !self.row_at.contains_key(&missing.key()) {
                 let problem = Problem::IncompleteGrid {
                     missing: missing.point(),

@@ -13,28 +13,15 @@ pub(super) struct Sweep {
 /// Sweeps over numbers; fast where all are positive or zero, as wear increments are.
 #[inline]
 pub(super) fn sweep(values: &[f64]) -> Sweep {
-    if plain(values) {
-        Sweep {
-            finite: true,
-            non_negative: true,
-        }
-    } else {
-        exact(values)
-    }
+    if plain(values) { Sweep { finite: true, non_negative: true } } else { exact(values) }
 }
 
 #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN is not finite; it is not negative too")]
 fn exact(values: &[f64]) -> Sweep {
-    values.iter().fold(
-        Sweep {
-            finite: true,
-            non_negative: true,
-        },
-        |found, value| Sweep {
-            finite: found.finite & value.is_finite(),
-            non_negative: found.non_negative & (*value >= 0.0 || value.is_nan()),
-        },
-    )
+    values.iter().fold(Sweep { finite: true, non_negative: true }, |found, value| Sweep {
+        finite: found.finite & value.is_finite(),
+        non_negative: found.non_negative & (*value >= 0.0 || value.is_nan()),
+    })
 }
 
 /// One in the exponent of a double: it carries the exponent of an infinity or a NaN over into the sign.
@@ -87,9 +74,7 @@ fn plain_lanes(values: &[f64]) -> bool {
 
 /// True if no number is NaN; infinities pass (the derivative of p^m at p = 0 for m < 1 is one).
 pub(super) fn no_nan(values: &[f64]) -> bool {
-    values
-        .iter()
-        .fold(true, |good, value| good & !value.is_nan())
+    values.iter().fold(true, |good, value| good & !value.is_nan())
 }
 
 /// How far a direction may be from unit length.
@@ -112,13 +97,7 @@ mod tests {
     fn one_bad_number_is_found_wherever_it_stands() {
         for length in [1, 2, 7, 8, 9, 31, 100] {
             let good = vec![1e-300; length];
-            assert_eq!(
-                sweep(&good),
-                Sweep {
-                    finite: true,
-                    non_negative: true
-                }
-            );
+            assert_eq!(sweep(&good), Sweep { finite: true, non_negative: true });
             for place in 0..length {
                 for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                     let mut values = good.clone();
@@ -128,13 +107,7 @@ mod tests {
                 }
                 let mut values = good.clone();
                 values[place] = -5e-324;
-                assert_eq!(
-                    sweep(&values),
-                    Sweep {
-                        finite: true,
-                        non_negative: false
-                    }
-                );
+                assert_eq!(sweep(&values), Sweep { finite: true, non_negative: false });
             }
         }
     }

@@ -38,10 +38,7 @@ pub enum ConstantsError {
         name: String,
     },
     /// More values than constants.
-    #[error(
-        "{found} constants are given, law `{law}` has {expected}: {}",
-        list(known)
-    )]
+    #[error("{found} constants are given, law `{law}` has {expected}: {}", list(known))]
     TooMany {
         /// The law.
         law: String,
@@ -53,9 +50,7 @@ pub enum ConstantsError {
         known: Vec<String>,
     },
     /// A constant without a default was not given.
-    #[error(
-        "constant `{name}` (number {position}) of law `{law}` is not given and has no default: {summary}"
-    )]
+    #[error("constant `{name}` (number {position}) of law `{law}` is not given and has no default: {summary}")]
     Required {
         /// The law.
         law: String,
@@ -96,19 +91,11 @@ fn list(names: &[String]) -> String {
     if names.is_empty() {
         return "none".to_owned();
     }
-    names
-        .iter()
-        .map(|name| format!("`{name}`"))
-        .collect::<Vec<_>>()
-        .join(", ")
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 fn in_si(found: f64, si: f64) -> String {
-    if found == si {
-        String::new()
-    } else {
-        format!(" ({si} in SI units)")
-    }
+    if found == si { String::new() } else { format!(" ({si} in SI units)") }
 }
 
 impl LawDescriptor {
@@ -119,11 +106,7 @@ impl LawDescriptor {
     ///
     /// # Errors
     /// An unknown name, one given twice, too many values, a required one left out, or a value out of bounds.
-    pub fn resolve_constants(
-        &self,
-        given: GivenConstants<'_>,
-        units: UnitSizes,
-    ) -> Result<Vec<f64>, ConstantsError> {
+    pub fn resolve_constants(&self, given: GivenConstants<'_>, units: UnitSizes) -> Result<Vec<f64>, ConstantsError> {
         let values = match given {
             GivenConstants::ByName(pairs) => self.by_name(pairs)?,
             GivenConstants::ByPosition(values) => self.by_position(values)?,
@@ -158,20 +141,13 @@ impl LawDescriptor {
     }
 
     fn constant_names(&self) -> Vec<String> {
-        self.constants
-            .iter()
-            .map(|constant| constant.name.clone())
-            .collect()
+        self.constants.iter().map(|constant| constant.name.clone()).collect()
     }
 
     fn by_name(&self, pairs: &[(String, f64)]) -> Result<Vec<Option<f64>>, ConstantsError> {
         let mut values = vec![None; self.constants.len()];
         for (name, value) in pairs {
-            let Some(index) = self
-                .constants
-                .iter()
-                .position(|constant| constant.name == *name)
-            else {
+            let Some(index) = self.constants.iter().position(|constant| constant.name == *name) else {
                 return Err(ConstantsError::Unknown {
                     law: self.name.clone(),
                     name: name.clone(),
@@ -180,10 +156,7 @@ impl LawDescriptor {
                 });
             };
             if values[index].replace(*value).is_some() {
-                return Err(ConstantsError::Twice {
-                    law: self.name.clone(),
-                    name: name.clone(),
-                });
+                return Err(ConstantsError::Twice { law: self.name.clone(), name: name.clone() });
             }
         }
         Ok(values)
@@ -207,10 +180,8 @@ impl LawDescriptor {
         self.constants
             .iter()
             .map(|constant| {
-                let same_letters = strsim::normalized_damerau_levenshtein(
-                    &constant.name.to_lowercase(),
-                    &name.to_lowercase(),
-                );
+                let same_letters =
+                    strsim::normalized_damerau_levenshtein(&constant.name.to_lowercase(), &name.to_lowercase());
                 (same_letters, &constant.name)
             })
             .filter(|(likeness, _)| *likeness > 0.5)
@@ -225,11 +196,7 @@ fn keeps_bounds(constant: &Quantity, value: f64, factor: f64) -> bool {
         return constant.allows(value * factor);
     }
     let free = |bound: f64, none: f64| {
-        if bound == 0.0 || bound.is_infinite() {
-            bound
-        } else {
-            none
-        }
+        if bound == 0.0 || bound.is_infinite() { bound } else { none }
     };
     let signs = Quantity {
         minimum: free(constant.minimum, f64::NEG_INFINITY),
@@ -244,19 +211,10 @@ mod tests {
     use super::super::test_laws::{constant, plain};
     use super::*;
 
-    const MILLIMETRES: UnitSizes = UnitSizes {
-        metre: 1e-3,
-        kilogram: 1e3,
-        second: 1.0,
-        kelvin: 1.0,
-    };
+    const MILLIMETRES: UnitSizes = UnitSizes { metre: 1e-3, kilogram: 1e3, second: 1.0, kelvin: 1.0 };
 
     fn law() -> LawDescriptor {
-        let positive = |name: &str| Quantity {
-            minimum: 0.0,
-            above_minimum: true,
-            ..constant(name)
-        };
+        let positive = |name: &str| Quantity { minimum: 0.0, above_minimum: true, ..constant(name) };
         LawDescriptor {
             constants: vec![
                 Quantity {
@@ -266,48 +224,27 @@ mod tests {
                     exponents: [1.0, 0.0, 0.0, 0.0],
                     ..constant("K")
                 },
-                Quantity {
-                    maximum: 1e11,
-                    exponents: [-1.0, 1.0, -2.0, 0.0],
-                    ..positive("hardness")
-                },
-                Quantity {
-                    default: Some(2.0),
-                    ..positive("m")
-                },
-                Quantity {
-                    default: Some(5e6),
-                    exponents: [-1.0, 1.0, -2.0, 0.0],
-                    ..positive("threshold")
-                },
+                Quantity { maximum: 1e11, exponents: [-1.0, 1.0, -2.0, 0.0], ..positive("hardness") },
+                Quantity { default: Some(2.0), ..positive("m") },
+                Quantity { default: Some(5e6), exponents: [-1.0, 1.0, -2.0, 0.0], ..positive("threshold") },
             ],
             ..plain("archard")
         }
     }
 
     fn named(pairs: &[(&str, f64)], units: UnitSizes) -> Result<Vec<f64>, String> {
-        let pairs: Vec<(String, f64)> = pairs
-            .iter()
-            .map(|(name, value)| ((*name).to_owned(), *value))
-            .collect();
-        law()
-            .resolve_constants(GivenConstants::ByName(&pairs), units)
-            .map_err(|error| error.to_string())
+        let pairs: Vec<(String, f64)> = pairs.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        law().resolve_constants(GivenConstants::ByName(&pairs), units).map_err(|error| error.to_string())
     }
 
     fn placed(values: &[Option<f64>]) -> Result<Vec<f64>, String> {
-        law()
-            .resolve_constants(GivenConstants::ByPosition(values), UnitSizes::SI)
-            .map_err(|error| error.to_string())
+        law().resolve_constants(GivenConstants::ByPosition(values), UnitSizes::SI).map_err(|error| error.to_string())
     }
 
     #[test]
     fn names_positions_and_defaults_give_the_same_constants() {
         let all = vec![1e-4, 1e9, 2.0, 5e6];
-        assert_eq!(
-            named(&[("hardness", 1e9), ("K", 1e-4)], UnitSizes::SI),
-            Ok(all.clone())
-        );
+        assert_eq!(named(&[("hardness", 1e9), ("K", 1e-4)], UnitSizes::SI), Ok(all.clone()));
         assert_eq!(placed(&[Some(1e-4), Some(1e9)]), Ok(all.clone()));
         assert_eq!(placed(&[Some(1e-4), Some(1e9), None, Some(5e6)]), Ok(all));
     }
@@ -315,21 +252,13 @@ mod tests {
     #[test]
     fn defaults_and_bounds_follow_the_units() {
         // Tonne, millimetre, second: pressures are in MPa.
-        let resolved =
-            named(&[("hardness", 1e3), ("K", 500.0)], MILLIMETRES).expect("within the bounds");
+        let resolved = named(&[("hardness", 1e3), ("K", 500.0)], MILLIMETRES).expect("within the bounds");
         assert_eq!(resolved[..3], [500.0, 1e3, 2.0]);
         assert!((resolved[3] - 5.0).abs() < 1e-12, "{resolved:?}");
         let said = named(&[("hardness", 2e5), ("K", 1.0)], MILLIMETRES).expect_err("2e11 Pa");
-        assert!(
-            said.starts_with("constant `hardness` of law `archard` is 200000 (2"),
-            "{said}"
-        );
-        assert!(
-            said.ends_with("in SI units), expected an SI value in (0, 100000000000]"),
-            "{said}"
-        );
-        let said = named(&[("hardness", 1e3), ("K", -1.0)], MILLIMETRES)
-            .expect_err("the sign is checked in any units");
+        assert!(said.starts_with("constant `hardness` of law `archard` is 200000 (2"), "{said}");
+        assert!(said.ends_with("in SI units), expected an SI value in (0, 100000000000]"), "{said}");
+        let said = named(&[("hardness", 1e3), ("K", -1.0)], MILLIMETRES).expect_err("the sign is checked in any units");
         assert!(said.contains("`K`") && said.contains("is -1"), "{said}");
     }
 

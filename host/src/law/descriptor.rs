@@ -33,16 +33,8 @@ pub struct Quantity {
 impl Quantity {
     /// True if a value in SI units keeps the bounds; NaN never does.
     pub fn allows(&self, value: f64) -> bool {
-        let low = if self.above_minimum {
-            value > self.minimum
-        } else {
-            value >= self.minimum
-        };
-        let high = if self.below_maximum {
-            value < self.maximum
-        } else {
-            value <= self.maximum
-        };
+        let low = if self.above_minimum { value > self.minimum } else { value >= self.minimum };
+        let high = if self.below_maximum { value < self.maximum } else { value <= self.maximum };
         low && high && value.is_finite()
     }
 
@@ -50,13 +42,7 @@ impl Quantity {
     pub fn interval(&self) -> String {
         let open = self.above_minimum || self.minimum == f64::NEG_INFINITY;
         let close = self.below_maximum || self.maximum == f64::INFINITY;
-        format!(
-            "{}{}, {}{}",
-            if open { '(' } else { '[' },
-            self.minimum,
-            self.maximum,
-            if close { ')' } else { ']' }
-        )
+        format!("{}{}, {}{}", if open { '(' } else { '[' }, self.minimum, self.maximum, if close { ')' } else { ']' })
     }
 }
 

@@ -35,10 +35,7 @@ impl Embedded {
     /// # Safety
     /// `entry` keeps the contract of `wearlaw_entry_1`.
     pub unsafe fn new(name: &str, entry: abi::EntryFn) -> Self {
-        Self {
-            name: name.to_owned(),
-            entry,
-        }
+        Self { name: name.to_owned(), entry }
     }
 }
 
@@ -72,21 +69,13 @@ impl LibraryFile {
     /// The file's constructors and its entry function keep the ABI's contract; nothing can check that beforehand.
     pub unsafe fn open(path: &Path) -> Result<Self, libloading::Error> {
         // A bare file name would be searched for in the system's folders.
-        let named = if path.components().count() == 1 {
-            Path::new(".").join(path)
-        } else {
-            path.to_owned()
-        };
+        let named = if path.components().count() == 1 { Path::new(".").join(path) } else { path.to_owned() };
         // SAFETY: the caller answers for what the library's constructors do.
         let library = unsafe { Library::open(Some(&named), RTLD_NOW | RTLD_LOCAL) }?;
         // SAFETY: by the ABI, a symbol of this name is a function of this type.
         let entry: Symbol<abi::EntryFn> = unsafe { library.get(abi::ENTRY_SYMBOL) }?;
         let entry = *entry;
-        Ok(Self {
-            name: path.display().to_string(),
-            entry,
-            library,
-        })
+        Ok(Self { name: path.display().to_string(), entry, library })
     }
 
     /// Compares the type layout that a law in Rust exports with this host's; see [`super::layout_check`].

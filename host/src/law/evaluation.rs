@@ -19,11 +19,7 @@ pub trait Evaluator: Send + Sync {
     ///
     /// # Errors
     /// A status that voids the values, an output that breaks the contract, or a worker that was lost.
-    fn evaluate(
-        &self,
-        batch: &Batch<'_>,
-        outputs: &mut Outputs<'_>,
-    ) -> Result<Evaluation, EvaluateError>;
+    fn evaluate(&self, batch: &Batch<'_>, outputs: &mut Outputs<'_>) -> Result<Evaluation, EvaluateError>;
 
     /// Takes the warnings gathered since the last call, each text once in a lifetime.
     fn take_warnings(&self) -> Vec<String>;
@@ -58,10 +54,7 @@ impl Evaluation {
     pub fn worse(self, other: Evaluation) -> Evaluation {
         match (&self, &other) {
             (_, Evaluation::Good) => self,
-            (
-                Evaluation::CutStep { factor: mine, .. },
-                Evaluation::CutStep { factor: yours, .. },
-            ) => {
+            (Evaluation::CutStep { factor: mine, .. }, Evaluation::CutStep { factor: yours, .. }) => {
                 if yours < mine {
                     other
                 } else {
@@ -96,10 +89,7 @@ pub struct NamedValues {
 impl NamedValues {
     /// Names some numbers.
     pub fn new(name: &str, values: &[f64]) -> Self {
-        Self {
-            name: name.to_owned(),
-            values: values.iter().copied().map(NumberText).collect(),
-        }
+        Self { name: name.to_owned(), values: values.iter().copied().map(NumberText).collect() }
     }
 }
 
@@ -192,11 +182,7 @@ pub enum EvaluateError {
         text: String,
     },
     /// The law answered a status that the ABI does not have.
-    #[error(
-        "law `{law}` answered status {status}, which does not exist, at {}{}",
-        place(at),
-        words(text)
-    )]
+    #[error("law `{law}` answered status {status}, which does not exist, at {}{}", place(at), words(text))]
     UnknownStatus {
         /// The law.
         law: String,
@@ -254,10 +240,7 @@ pub enum EvaluateError {
         at: PointInputs,
     },
     /// The worker process of the law was lost.
-    #[error(
-        "law `{law}` {how} in call {call}, points {first} to {last}{}",
-        at_place(at)
-    )]
+    #[error("law `{law}` {how} in call {call}, points {first} to {last}{}", at_place(at))]
     WorkerLost {
         /// The law.
         law: String,
@@ -298,19 +281,14 @@ impl EvaluateError {
     /// The point that it names, if it names one.
     pub fn at_mut(&mut self) -> Option<&mut PointInputs> {
         match self {
-            Self::OtherLaw { .. }
-            | Self::OutputLength { .. }
-            | Self::NotWritten { .. }
-            | Self::Channel { .. } => None,
+            Self::OtherLaw { .. } | Self::OutputLength { .. } | Self::NotWritten { .. } | Self::Channel { .. } => None,
             Self::OutOfDomain { at, .. }
             | Self::MissingInput { at, .. }
             | Self::Failed { at, .. }
             | Self::UnknownStatus { at, .. }
             | Self::BadFactor { at, .. }
             | Self::WorkerLost { at, .. } => at.as_mut(),
-            Self::NotFinite { at, .. }
-            | Self::Negative { at, .. }
-            | Self::DirectionLength { at, .. } => Some(at),
+            Self::NotFinite { at, .. } | Self::Negative { at, .. } | Self::DirectionLength { at, .. } => Some(at),
         }
     }
 }
@@ -323,31 +301,17 @@ fn place(at: &Option<PointInputs>) -> String {
 }
 
 fn at_place(at: &Option<PointInputs>) -> String {
-    at.as_ref()
-        .map(|at| format!(", at {at}"))
-        .unwrap_or_default()
+    at.as_ref().map(|at| format!(", at {at}")).unwrap_or_default()
 }
 
 fn words(text: &str) -> String {
-    if text.is_empty() {
-        String::new()
-    } else {
-        format!(": {text}")
-    }
+    if text.is_empty() { String::new() } else { format!(": {text}") }
 }
 
 fn missing_names(fields: Fields, unknown: i64) -> String {
-    let mut names: Vec<String> = fields
-        .names()
-        .iter()
-        .map(|name| format!("`{name}`"))
-        .collect();
+    let mut names: Vec<String> = fields.names().iter().map(|name| format!("`{name}`")).collect();
     if unknown != 0 {
         names.push(format!("fields unknown here (bits {unknown:#x})"));
     }
-    if names.is_empty() {
-        "an input that it did not name".to_owned()
-    } else {
-        names.join(", ")
-    }
+    if names.is_empty() { "an input that it did not name".to_owned() } else { names.join(", ") }
 }

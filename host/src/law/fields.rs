@@ -123,11 +123,9 @@ impl Field {
     /// What one point has of it.
     pub const fn shape(self) -> Shape {
         match self {
-            Field::SlipVector
-            | Field::Normal
-            | Field::Coordinates
-            | Field::Tangent
-            | Field::FrictionStress => Shape::Vector,
+            Field::SlipVector | Field::Normal | Field::Coordinates | Field::Tangent | Field::FrictionStress => {
+                Shape::Vector
+            }
             Field::ContactState | Field::PointId | Field::ElementId => Shape::Index,
             _ => Shape::Scalar,
         }
@@ -136,9 +134,7 @@ impl Field {
     /// SI exponents of metre, kilogram, second and kelvin; `area` as in 3-D.
     pub const fn exponents(self) -> [f64; 4] {
         match self {
-            Field::Pressure | Field::FrictionStress | Field::NodalTraction => {
-                [-1.0, 1.0, -2.0, 0.0]
-            }
+            Field::Pressure | Field::FrictionStress | Field::NodalTraction => [-1.0, 1.0, -2.0, 0.0],
             Field::Slip
             | Field::SlipVector
             | Field::Coordinates
@@ -222,10 +218,7 @@ impl<T: Named> Mask<T> {
 
     /// The set of these bits, known or not.
     pub const fn from_bits(bits: i64) -> Self {
-        Self {
-            bits,
-            of: std::marker::PhantomData,
-        }
+        Self { bits, of: std::marker::PhantomData }
     }
 
     /// The bits, as the ABI has them.
@@ -270,10 +263,7 @@ impl<T: Named> Mask<T> {
 
     /// The known members, in the order of their bits.
     pub fn iter(self) -> impl Iterator<Item = T> {
-        T::ALL
-            .iter()
-            .copied()
-            .filter(move |one| self.contains(*one))
+        T::ALL.iter().copied().filter(move |one| self.contains(*one))
     }
 
     /// The names of the known members, in the order of their bits.
@@ -318,8 +308,7 @@ impl<'de, T: Named> Deserialize<'de> for Mask<T> {
         let mut mask = Self::EMPTY;
         for name in names {
             let one = T::ALL.iter().copied().find(|one| one.name() == name);
-            mask = mask
-                .with(one.ok_or_else(|| serde::de::Error::custom(format!("no member `{name}`")))?);
+            mask = mask.with(one.ok_or_else(|| serde::de::Error::custom(format!("no member `{name}`")))?);
         }
         Ok(mask)
     }
@@ -353,10 +342,7 @@ mod tests {
         assert_eq!(mask.names(), ["pressure", "gap"]);
         let text = serde_json::to_string(&mask).expect("a mask is a list of names");
         assert_eq!(text, r#"["pressure","gap"]"#);
-        assert_eq!(
-            serde_json::from_str::<Fields>(&text).expect("its own text"),
-            mask
-        );
+        assert_eq!(serde_json::from_str::<Fields>(&text).expect("its own text"), mask);
     }
 
     #[test]

@@ -42,14 +42,7 @@ impl FloatEnv {
     #[inline]
     pub fn changed_since(&self) -> Option<FloatEnvChange> {
         let after = Self::capture();
-        if after == *self {
-            None
-        } else {
-            Some(FloatEnvChange {
-                before: *self,
-                after,
-            })
-        }
+        if after == *self { None } else { Some(FloatEnvChange { before: *self, after }) }
     }
 
     /// Sets the calling thread's environment back to this one; exception flags stay as they are.
@@ -61,17 +54,9 @@ impl FloatEnv {
 impl FloatEnvChange {
     /// Each setting that changed: its name, its value before and after.
     pub fn settings(&self) -> Vec<(&'static str, &'static str, &'static str)> {
-        let (before, after) = (
-            registers::describe(self.before.0),
-            registers::describe(self.after.0),
-        );
-        let pairs = before
-            .into_iter()
-            .zip(after)
-            .filter(|(before, after)| before.1 != after.1);
-        pairs
-            .map(|(before, after)| (before.0, before.1, after.1))
-            .collect()
+        let (before, after) = (registers::describe(self.before.0), registers::describe(self.after.0));
+        let pairs = before.into_iter().zip(after).filter(|(before, after)| before.1 != after.1);
+        pairs.map(|(before, after)| (before.0, before.1, after.1)).collect()
     }
 }
 
@@ -130,10 +115,7 @@ mod x86_64 {
             asm!("fnstcw [{}]", in(reg) x87.as_mut_ptr(), options(nostack, preserves_flags));
             (mxcsr.assume_init(), x87.assume_init())
         };
-        Control {
-            mxcsr: mxcsr & MXCSR_CONTROL,
-            x87: x87 & X87_CONTROL,
-        }
+        Control { mxcsr: mxcsr & MXCSR_CONTROL, x87: x87 & X87_CONTROL }
     }
 
     pub(super) fn write(control: Control) {
@@ -181,8 +163,7 @@ mod x86_64 {
             ("x87 rounding", ROUNDING[usize::from(x87 >> 10 & 3)]),
             ("x87 precision", PRECISION[usize::from(x87 >> 8 & 3)]),
         ];
-        settings
-            .extend((0..6).map(|bit| (SSE_TRAPS[bit], quiet_traps(mxcsr >> (7 + bit) & 1 == 1))));
+        settings.extend((0..6).map(|bit| (SSE_TRAPS[bit], quiet_traps(mxcsr >> (7 + bit) & 1 == 1))));
         settings.extend((0..6).map(|bit| (X87_TRAPS[bit], quiet_traps(x87 >> bit & 1 == 1))));
         settings
     }
@@ -284,20 +265,11 @@ mod tests {
         assert_eq!(said(0x6000, 0), "rounding from to nearest to toward zero");
         assert_eq!(said(0x8000, 0), "flush-to-zero from off to on");
         assert_eq!(said(0x0040, 0), "denormals-are-zero from off to on");
-        assert_eq!(
-            said(0x8040, 0),
-            "flush-to-zero from off to on, denormals-are-zero from off to on"
-        );
-        assert_eq!(
-            said(0x0200, 0),
-            "division-by-zero exception from quiet to trapping"
-        );
+        assert_eq!(said(0x8040, 0), "flush-to-zero from off to on, denormals-are-zero from off to on");
+        assert_eq!(said(0x0200, 0), "division-by-zero exception from quiet to trapping");
         assert_eq!(said(0, 0x0800), "x87 rounding from to nearest to upward");
         assert_eq!(said(0, 0x0100), "x87 precision from extended to double");
-        assert_eq!(
-            said(0, 0x0001),
-            "x87 invalid-operation exception from quiet to trapping"
-        );
+        assert_eq!(said(0, 0x0001), "x87 invalid-operation exception from quiet to trapping");
         for bit in 6..16 {
             assert!(!said(1 << bit, 0).is_empty(), "MXCSR bit {bit}");
         }

@@ -31,9 +31,7 @@ pub struct LawInstance {
 
 impl std::fmt::Debug for LawInstance {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.debug_struct("LawInstance")
-            .field("name", &self.descriptor().name)
-            .finish_non_exhaustive()
+        out.debug_struct("LawInstance").field("name", &self.descriptor().name).finish_non_exhaustive()
     }
 }
 
@@ -61,12 +59,7 @@ struct Again {
 impl LawInstance {
     pub(super) fn new(created: Created, warnings: Vec<String>) -> Self {
         let turn = created.law.descriptor.is_serial().then(Mutex::default);
-        Self {
-            created,
-            turn,
-            float_warned: AtomicBool::new(false),
-            warnings: Mutex::new(warnings),
-        }
+        Self { created, turn, float_warned: AtomicBool::new(false), warnings: Mutex::new(warnings) }
     }
 
     /// As [`Evaluator::evaluate`]; `watch` is told of every piece before the law sees it.
@@ -82,10 +75,7 @@ impl LawInstance {
     ) -> Result<Evaluation, EvaluateError> {
         let law = self.descriptor();
         fits(law, batch, outputs)?;
-        let _turn = self
-            .turn
-            .as_ref()
-            .map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
+        let _turn = self.turn.as_ref().map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
         let request = request(law, outputs);
         if batch.points() <= PIECE
             && let Some(view) = batch.whole_view(request)
@@ -132,11 +122,7 @@ impl LawInstance {
         if raw.values_are_meant() {
             self.check(batch, all.clone(), outputs)?;
         }
-        if raw.status == abi::WL_OK {
-            Ok(Evaluation::Good)
-        } else {
-            self.diagnose(batch, all, outputs, &raw)
-        }
+        if raw.status == abi::WL_OK { Ok(Evaluation::Good) } else { self.diagnose(batch, all, outputs, &raw) }
     }
 
     /// One call of the law on `piece`, which is what `view` shows.
@@ -154,11 +140,7 @@ impl LawInstance {
             struct_size: size_of::<abi::Output>() as i64,
             increment: outputs.increment[piece.clone()].as_mut_ptr(),
             direction: at(&mut outputs.direction, piece, 3),
-            state: if variables == 0 {
-                null
-            } else {
-                at(&mut outputs.state, piece, variables)
-            },
+            state: if variables == 0 { null } else { at(&mut outputs.state, piece, variables) },
             status: at(&mut outputs.status, piece, 1),
             first_bad: -1,
             dt_factor: 0.0,
@@ -182,12 +164,7 @@ impl LawInstance {
             before.restore();
             self.warn_of_float_env(&change.to_string());
         }
-        Raw {
-            status,
-            first_bad: output.first_bad,
-            dt_factor: output.dt_factor,
-            missing: output.missing,
-        }
+        Raw { status, first_bad: output.first_bad, dt_factor: output.dt_factor, missing: output.missing }
     }
 
     #[cold]
@@ -204,12 +181,7 @@ impl LawInstance {
 
     /// Checks the answers of one piece, while they are in cache.
     #[inline]
-    fn check(
-        &self,
-        batch: &Batch<'_>,
-        piece: Range<usize>,
-        outputs: &Outputs<'_>,
-    ) -> Result<(), EvaluateError> {
+    fn check(&self, batch: &Batch<'_>, piece: Range<usize>, outputs: &Outputs<'_>) -> Result<(), EvaluateError> {
         let law = self.descriptor();
         let found = sweep(&outputs.increment[piece.clone()]);
         let mut good = found.finite && (found.non_negative || !law.claims(Claim::NonNegative));
@@ -223,11 +195,7 @@ impl LawInstance {
         if let Some(d_pressure) = &outputs.d_pressure {
             good &= no_nan(&d_pressure[piece.clone()]);
         }
-        if good {
-            Ok(())
-        } else {
-            Err(self.broken(batch, piece, outputs))
-        }
+        if good { Ok(()) } else { Err(self.broken(batch, piece, outputs)) }
     }
 }
 
@@ -236,11 +204,7 @@ impl Evaluator for LawInstance {
         &self.created.law.descriptor
     }
 
-    fn evaluate(
-        &self,
-        batch: &Batch<'_>,
-        outputs: &mut Outputs<'_>,
-    ) -> Result<Evaluation, EvaluateError> {
+    fn evaluate(&self, batch: &Batch<'_>, outputs: &mut Outputs<'_>) -> Result<Evaluation, EvaluateError> {
         self.evaluate_watched(batch, outputs, |_| {})
     }
 
@@ -252,10 +216,7 @@ impl Evaluator for LawInstance {
 /// The output bits that a call asks for.
 fn request(law: &LawDescriptor, outputs: &Outputs<'_>) -> i64 {
     bit(outputs.direction.is_some(), abi::WL_OUT_DIRECTION)
-        | bit(
-            !law.state.is_empty() && outputs.state.is_some(),
-            abi::WL_OUT_STATE,
-        )
+        | bit(!law.state.is_empty() && outputs.state.is_some(), abi::WL_OUT_STATE)
         | bit(outputs.status.is_some(), abi::WL_OUT_STATUS)
         | bit(outputs.d_pressure.is_some(), abi::WL_OUT_D_PRESSURE)
 }
@@ -273,16 +234,9 @@ fn at<T>(array: &mut Option<&mut [T]>, piece: &Range<usize>, width: usize) -> *m
 
 /// Checks that batch and outputs are made for this law and for each other.
 #[inline]
-pub(super) fn fits(
-    law: &LawDescriptor,
-    batch: &Batch<'_>,
-    outputs: &Outputs<'_>,
-) -> Result<(), EvaluateError> {
+pub(super) fn fits(law: &LawDescriptor, batch: &Batch<'_>, outputs: &Outputs<'_>) -> Result<(), EvaluateError> {
     if !std::ptr::eq(batch.descriptor(), law) && batch.descriptor() != law {
-        return Err(EvaluateError::OtherLaw {
-            law: law.name.clone(),
-            found: batch.descriptor().name.clone(),
-        });
+        return Err(EvaluateError::OtherLaw { law: law.name.clone(), found: batch.descriptor().name.clone() });
     }
     let points = batch.points();
     let variables = law.state.len();
@@ -290,21 +244,13 @@ pub(super) fn fits(
         if found == expected {
             return Ok(());
         }
-        Err(EvaluateError::OutputLength {
-            law: law.name.clone(),
-            output: output.to_owned(),
-            found,
-            expected,
-        })
+        Err(EvaluateError::OutputLength { law: law.name.clone(), output: output.to_owned(), found, expected })
     };
     let written = |item: OutputItem| {
         if law.writes(item) {
             return Ok(());
         }
-        Err(EvaluateError::NotWritten {
-            law: law.name.clone(),
-            output: item.name().to_owned(),
-        })
+        Err(EvaluateError::NotWritten { law: law.name.clone(), output: item.name().to_owned() })
     };
     length("increment", outputs.increment.len(), points)?;
     if let Some(direction) = &outputs.direction {

@@ -53,19 +53,12 @@ pub struct Difference {
 
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}: found {}, expected {}",
-            self.place, self.found, self.expected
-        )
+        write!(f, "{}: found {}, expected {}", self.place, self.found, self.expected)
     }
 }
 
 fn lines(differences: &[Difference]) -> String {
-    differences
-        .iter()
-        .map(|difference| format!("\n  {difference}"))
-        .collect()
+    differences.iter().map(|difference| format!("\n  {difference}")).collect()
 }
 
 /// Compares the layout that a library exports with this host's; a library that exports none is passed.
@@ -98,10 +91,7 @@ pub fn check_header(found: &AbiHeader) -> Result<(), LayoutMismatch> {
         Err(LayoutMismatch::NoLayout)
     } else if !found.is_valid() {
         let version = |header: &AbiHeader| (header.abi_major, header.abi_minor);
-        Err(LayoutMismatch::OtherForm {
-            found: version(found),
-            expected: version(&host),
-        })
+        Err(LayoutMismatch::OtherForm { found: version(found), expected: version(&host) })
     } else {
         Ok(())
     }
@@ -111,10 +101,7 @@ pub fn check_header(found: &AbiHeader) -> Result<(), LayoutMismatch> {
 ///
 /// # Errors
 /// The types differ in a name, a size, a field or a function's signature.
-pub fn check_layout(
-    expected: &'static TypeLayout,
-    found: &'static TypeLayout,
-) -> Result<(), LayoutMismatch> {
+pub fn check_layout(expected: &'static TypeLayout, found: &'static TypeLayout) -> Result<(), LayoutMismatch> {
     let Err(report) = check_layout_compatibility(expected, found) else {
         return Ok(());
     };
@@ -126,10 +113,7 @@ pub fn check_layout(
                 continue;
             }
             let difference = describe(expected.name(), error, fault);
-            let follows = matches!(
-                fault,
-                Fault::Size(_) | Fault::Alignment(_) | Fault::FieldCountMismatch(_)
-            );
+            let follows = matches!(fault, Fault::Size(_) | Fault::Alignment(_) | Fault::FieldCountMismatch(_));
             if !differences.iter().any(|(_, known)| *known == difference) {
                 differences.push((follows, difference));
             }
@@ -139,16 +123,9 @@ pub fn check_layout(
         return Ok(());
     }
     // A size differs because a field does: the fields come first, and those inside before those around them.
-    differences.sort_by_key(|(follows, difference)| {
-        (*follows, usize::MAX - difference.place.matches('.').count())
-    });
-    let kept = differences
-        .into_iter()
-        .map(|(_, difference)| difference)
-        .take(MOST_LINES - 1);
-    Err(LayoutMismatch::Differs {
-        differences: kept.collect(),
-    })
+    differences.sort_by_key(|(follows, difference)| (*follows, usize::MAX - difference.place.matches('.').count()));
+    let kept = differences.into_iter().map(|(_, difference)| difference).take(MOST_LINES - 1);
+    Err(LayoutMismatch::Differs { differences: kept.collect() })
 }
 
 fn describe(root: &str, error: &AbiInstabilityError, fault: &Fault) -> Difference {
@@ -159,17 +136,12 @@ fn describe(root: &str, error: &AbiInstabilityError, fault: &Fault) -> Differenc
             TLFieldOrFunction::Function(_) => place += "()",
         }
     }
-    let functions =
-        error
-            .stack_trace
-            .iter()
-            .rev()
-            .find_map(|step| match (&step.expected, &step.found) {
-                (TLFieldOrFunction::Function(expected), TLFieldOrFunction::Function(found)) => {
-                    Some(signatures(expected, found))
-                }
-                _ => None,
-            });
+    let functions = error.stack_trace.iter().rev().find_map(|step| match (&step.expected, &step.found) {
+        (TLFieldOrFunction::Function(expected), TLFieldOrFunction::Function(found)) => {
+            Some(signatures(expected, found))
+        }
+        _ => None,
+    });
     let (expected, found) = match fault {
         Fault::Name(pair) => typed(pair, |name| format!("type {name}")),
         Fault::Package(pair) => typed(pair, |name| format!("a type of the crate {name}")),
@@ -180,43 +152,24 @@ fn describe(root: &str, error: &AbiInstabilityError, fault: &Fault) -> Differenc
             functions.unwrap_or_default()
         }
         Fault::FnQualifierMismatch(pair) => typed(pair, ToString::to_string),
-        Fault::UnexpectedField(pair) => typed(pair, |field| {
-            format!("field `{}`: {}", field.name(), field.full_type())
-        }),
+        Fault::UnexpectedField(pair) => typed(pair, |field| format!("field `{}`: {}", field.name(), field.full_type())),
         Fault::FieldCountMismatch(pair) => typed(pair, |count| format!("{count} fields")),
         Fault::MismatchedPrimitive(pair) => typed(pair, |primitive| format!("{primitive:?}")),
-        Fault::MismatchedConstParam(pair) => {
-            typed(pair, |value| format!("array length or constant {value:?}"))
-        }
+        Fault::MismatchedConstParam(pair) => typed(pair, |value| format!("array length or constant {value:?}")),
         Fault::ReprAttr(pair) => typed(pair, |repr| format!("representation {repr:?}")),
-        Fault::NonZeroness(pair) => typed(pair, |never| {
-            if *never {
-                "never zero"
-            } else {
-                "possibly zero"
-            }
-            .to_owned()
-        }),
+        Fault::NonZeroness(pair) => typed(pair, |never| if *never { "never zero" } else { "possibly zero" }.to_owned()),
         _ => ("the same".to_owned(), "another form of type".to_owned()),
     };
     let one_line = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    Difference {
-        place,
-        expected: one_line(expected),
-        found: one_line(found),
-    }
+    Difference { place, expected: one_line(expected), found: one_line(found) }
 }
 
 /// Two signatures by their types; the crate's own text runs the parameters' names together.
 fn signatures(expected: &TLFunction, found: &TLFunction) -> (String, String) {
     let text = |function: &TLFunction| {
-        let name = |layout: extern "C" fn() -> &'static TypeLayout| {
-            layout().full_type().to_string().trim().to_owned()
-        };
+        let name = |layout: extern "C" fn() -> &'static TypeLayout| layout().full_type().to_string().trim().to_owned();
         let parameters: Vec<_> = function.param_type_layouts.iter().map(name).collect();
-        let result = function
-            .return_type_layout()
-            .map_or_else(|| "()".to_owned(), name);
+        let result = function.return_type_layout().map_or_else(|| "()".to_owned(), name);
         format!("fn({}) -> {result}", parameters.join(", "))
     };
     let (expected, mut found) = (text(expected), text(found));
@@ -263,8 +216,7 @@ mod tests {
     types!(recalled { pub pressure: *const f64, pub slip: *const f64, pub name: [u8; 64] } { view: *const View, n: i64 });
 
     fn said<T: StableAbi>() -> String {
-        let refused =
-            check_layout(<host::Law as StableAbi>::LAYOUT, <T as StableAbi>::LAYOUT).unwrap_err();
+        let refused = check_layout(<host::Law as StableAbi>::LAYOUT, <T as StableAbi>::LAYOUT).unwrap_err();
         let text = refused.to_string();
         assert!(text.lines().count() <= 5, "{text}");
         text
@@ -272,13 +224,7 @@ mod tests {
 
     #[test]
     fn the_same_types_pass() {
-        assert_eq!(
-            check_layout(
-                <host::Law as StableAbi>::LAYOUT,
-                <same::Law as StableAbi>::LAYOUT
-            ),
-            Ok(())
-        );
+        assert_eq!(check_layout(<host::Law as StableAbi>::LAYOUT, <same::Law as StableAbi>::LAYOUT), Ok(()));
         assert_eq!(check_header(&AbiHeader::VALUE), Ok(()));
     }
 
@@ -293,20 +239,11 @@ mod tests {
             first(said::<swapped::Law>()),
             "Law.view: found field `slip`: *const f64, expected field `pressure`: *const f64"
         );
-        assert_eq!(
-            first(said::<retyped::Law>()),
-            "Law.view.slip: found type i64, expected type *const f64"
-        );
+        assert_eq!(first(said::<retyped::Law>()), "Law.view.slip: found type i64, expected type *const f64");
         let longer = said::<longer::Law>();
-        assert!(
-            longer.contains("Law.view.name") && longer.contains("72") && longer.contains("64"),
-            "{longer}"
-        );
+        assert!(longer.contains("Law.view.name") && longer.contains("72") && longer.contains("64"), "{longer}");
         let appended = said::<appended::Law>();
-        assert!(
-            appended.contains("Law.view: found 5 fields, expected 4 fields"),
-            "{appended}"
-        );
+        assert!(appended.contains("Law.view: found 5 fields, expected 4 fields"), "{appended}");
         assert_eq!(
             first(said::<recalled::Law>()),
             "Law.evaluate(): found fn(*const View, i64) -> i32, expected fn(*const View) -> i32"
@@ -317,10 +254,7 @@ mod tests {
     fn what_is_no_layout_is_told() {
         let mut header = AbiHeader::VALUE;
         header.abi_minor += 1;
-        assert!(matches!(
-            check_header(&header),
-            Err(LayoutMismatch::OtherForm { .. })
-        ));
+        assert!(matches!(check_header(&header), Err(LayoutMismatch::OtherForm { .. })));
         header.magic_string = [0; 32];
         assert_eq!(check_header(&header), Err(LayoutMismatch::NoLayout));
     }

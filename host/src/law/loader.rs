@@ -167,10 +167,7 @@ pub struct Plugin {
 
 impl std::fmt::Debug for Plugin {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.debug_struct("Plugin")
-            .field("name", &self.name)
-            .field("laws", &self.laws)
-            .finish_non_exhaustive()
+        out.debug_struct("Plugin").field("name", &self.name).field("laws", &self.laws).finish_non_exhaustive()
     }
 }
 
@@ -196,11 +193,7 @@ impl Plugin {
         file.check_layout().map_err(|mismatch| LoadError::Layout { library, mismatch })?;
         let mut plugin = Self::from_entry(Arc::new(file))?;
         warnings.append(&mut plugin.warnings);
-        Ok(Self {
-            facts: Some(facts),
-            warnings,
-            ..plugin
-        })
+        Ok(Self { facts: Some(facts), warnings, ..plugin })
     }
 
     /// Asks an entry for its laws.
@@ -210,15 +203,8 @@ impl Plugin {
     pub fn from_entry(entry: Arc<dyn Entry>) -> Result<Self, LoadError> {
         let name = entry.name().to_owned();
         let mut warnings = Vec::new();
-        let laws = guarded(&name, "while it described its laws", &mut warnings, || {
-            ask_all(&entry)
-        })?;
-        Ok(Self {
-            name,
-            facts: None,
-            laws,
-            warnings,
-        })
+        let laws = guarded(&name, "while it described its laws", &mut warnings, || ask_all(&entry))?;
+        Ok(Self { name, facts: None, laws, warnings })
     }
 
     /// What messages call it: a path, or a name.
@@ -246,26 +232,13 @@ impl Plugin {
     /// # Errors
     /// No law of that name, or no name where there are several.
     pub fn law(&self, name: Option<&str>) -> Result<&Law, LoadError> {
-        let known = || {
-            self.laws
-                .iter()
-                .map(|law| law.descriptor().name.clone())
-                .collect()
-        };
+        let known = || self.laws.iter().map(|law| law.descriptor().name.clone()).collect();
         match (name, self.laws.as_slice()) {
             (None, [only]) => Ok(only),
-            (None, _) => Err(LoadError::Ambiguous {
-                library: self.name.clone(),
-                known: known(),
+            (None, _) => Err(LoadError::Ambiguous { library: self.name.clone(), known: known() }),
+            (Some(wanted), laws) => laws.iter().find(|law| law.descriptor().name == wanted).ok_or_else(|| {
+                LoadError::NoSuchLaw { library: self.name.clone(), wanted: wanted.to_owned(), known: known() }
             }),
-            (Some(wanted), laws) => laws
-                .iter()
-                .find(|law| law.descriptor().name == wanted)
-                .ok_or_else(|| LoadError::NoSuchLaw {
-                    library: self.name.clone(),
-                    wanted: wanted.to_owned(),
-                    known: known(),
-                }),
         }
     }
 }
@@ -278,27 +251,15 @@ fn ask_all(entry: &Arc<dyn Entry>) -> Result<Vec<Law>, LoadError> {
             Answer::NoMore if index == 0 => return Err(LoadError::NoLaws { library: library() }),
             Answer::NoMore => return Ok(laws),
             Answer::Status(status) => {
-                return Err(LoadError::EntryStatus {
-                    library: library(),
-                    index,
-                    status,
-                });
+                return Err(LoadError::EntryStatus { library: library(), index, status });
             }
             Answer::Malformed { name, error } => {
-                return Err(LoadError::Malformed {
-                    library: library(),
-                    index,
-                    name,
-                    error,
-                });
+                return Err(LoadError::Malformed { library: library(), index, name, error });
             }
             Answer::Law(law) => {
                 let name = &law.descriptor.name;
                 if laws.iter().any(|other| other.descriptor().name == *name) {
-                    return Err(LoadError::SameName {
-                        library: library(),
-                        name: name.clone(),
-                    });
+                    return Err(LoadError::SameName { library: library(), name: name.clone() });
                 }
                 laws.push(Law { law });
             }
@@ -308,19 +269,12 @@ fn ask_all(entry: &Arc<dyn Entry>) -> Result<Vec<Law>, LoadError> {
 }
 
 /// Runs `work` and puts the floating-point environment back if it was changed meanwhile.
-fn guarded<T>(
-    library: &str,
-    when: &str,
-    warnings: &mut Vec<String>,
-    work: impl FnOnce() -> T,
-) -> T {
+fn guarded<T>(library: &str, when: &str, warnings: &mut Vec<String>, work: impl FnOnce() -> T) -> T {
     let before = FloatEnv::capture();
     let result = work();
     if let Some(change) = before.changed_since() {
         before.restore();
-        warnings.push(format!(
-            "`{library}` changed the floating-point environment {when} ({change}); it was put back"
-        ));
+        warnings.push(format!("`{library}` changed the floating-point environment {when} ({change}); it was put back"));
     }
     result
 }
@@ -333,9 +287,7 @@ pub struct Law {
 
 impl std::fmt::Debug for Law {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.debug_struct("Law")
-            .field("name", &self.descriptor().name)
-            .finish_non_exhaustive()
+        out.debug_struct("Law").field("name", &self.descriptor().name).finish_non_exhaustive()
     }
 }
 
@@ -356,21 +308,14 @@ impl Law {
     /// Options that are no C text, or the law's refusal in its own words.
     pub fn create(&self, options: Option<&str>) -> Result<LawInstance, LoadError> {
         let law = &self.law.descriptor.name;
-        let options =
-            options
-                .map(CString::new)
-                .transpose()
-                .map_err(|error| LoadError::OptionsNul {
-                    law: law.clone(),
-                    position: error.nul_position(),
-                })?;
+        let options = options
+            .map(CString::new)
+            .transpose()
+            .map_err(|error| LoadError::OptionsNul { law: law.clone(), position: error.nul_position() })?;
         let mut warnings = Vec::new();
-        let created = guarded(
-            self.law.library(),
-            "when a law was created",
-            &mut warnings,
-            || Created::new(Arc::clone(&self.law), options),
-        );
+        let created = guarded(self.law.library(), "when a law was created", &mut warnings, || {
+            Created::new(Arc::clone(&self.law), options)
+        });
         match created {
             Ok(created) => Ok(LawInstance::new(created, warnings)),
             Err(refusal) => Err(LoadError::Refused {

@@ -89,11 +89,7 @@ unsafe impl<L: MemoryLaw> Entry for InMemory<L> {
     }
 }
 
-unsafe extern "C" fn describe<L: MemoryLaw>(
-    kind: i32,
-    index: i64,
-    quantity: *mut abi::Quantity,
-) -> i32 {
+unsafe extern "C" fn describe<L: MemoryLaw>(kind: i32, index: i64, quantity: *mut abi::Quantity) -> i32 {
     let law = L::descriptor();
     let list: &[Quantity] = match kind {
         abi::WL_KIND_CONSTANT => &law.constants,
@@ -103,9 +99,7 @@ unsafe extern "C" fn describe<L: MemoryLaw>(
     };
     // SAFETY: the host allocated the struct and holds it for the call.
     let place = unsafe { &mut *quantity };
-    let found = usize::try_from(index)
-        .ok()
-        .and_then(|index| list.get(index));
+    let found = usize::try_from(index).ok().and_then(|index| list.get(index));
     if let Some(found) = found {
         place.name = chars(&found.name);
         place.summary = chars(&found.summary);
@@ -118,18 +112,10 @@ unsafe extern "C" fn describe<L: MemoryLaw>(
             (found.above_minimum, abi::WL_QUANTITY_ABOVE_MINIMUM),
             (found.below_maximum, abi::WL_QUANTITY_BELOW_MAXIMUM),
         ];
-        place.flags = flags
-            .into_iter()
-            .filter(|(set, _)| *set)
-            .map(|(_, bit)| bit)
-            .sum();
+        place.flags = flags.into_iter().filter(|(set, _)| *set).map(|(_, bit)| bit).sum();
     }
     L::tamper_quantity(kind, index, place);
-    if found.is_some() || place.name[0] != 0 {
-        abi::WL_OK
-    } else {
-        abi::WL_NO_MORE
-    }
+    if found.is_some() || place.name[0] != 0 { abi::WL_OK } else { abi::WL_NO_MORE }
 }
 
 unsafe extern "C" fn create<L: MemoryLaw>(
@@ -185,11 +171,8 @@ unsafe extern "C" fn evaluate<L: MemoryLaw>(
         missing: raw.missing,
         text: String::new(),
     };
-    let status = catch_unwind(AssertUnwindSafe(|| {
-        law.evaluate(&MemoryInputs { view }, &mut outputs)
-    }));
-    (raw.first_bad, raw.dt_factor, raw.missing) =
-        (outputs.first_bad, outputs.dt_factor, outputs.missing);
+    let status = catch_unwind(AssertUnwindSafe(|| law.evaluate(&MemoryInputs { view }, &mut outputs)));
+    (raw.first_bad, raw.dt_factor, raw.missing) = (outputs.first_bad, outputs.dt_factor, outputs.missing);
     // SAFETY: the host gave a buffer of that size, or NULL.
     unsafe { write_text(&outputs.text, raw.text, raw.text_size) };
     status.unwrap_or(abi::WL_FAILED)
@@ -265,11 +248,7 @@ impl MemoryInputs<'_> {
 
     /// State variable `index` at a point; none if there is no such variable.
     pub fn state(&self, index: usize, point: usize) -> Option<f64> {
-        if index >= self.view.state_count as usize {
-            None
-        } else {
-            self.read(self.view.state, point, index)
-        }
+        if index >= self.view.state_count as usize { None } else { self.read(self.view.state, point, index) }
     }
 
     fn read(&self, column: abi::Column, point: usize, index: usize) -> Option<f64> {
@@ -278,12 +257,7 @@ impl MemoryInputs<'_> {
             return None;
         }
         // SAFETY: the host gives columns that reach over all points, and `point` is one of them.
-        Some(unsafe {
-            *column
-                .ptr
-                .offset(point as isize * column.step as isize)
-                .add(index)
-        })
+        Some(unsafe { *column.ptr.offset(point as isize * column.step as isize).add(index) })
     }
 }
 

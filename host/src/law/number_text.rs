@@ -24,8 +24,6 @@ enum Either {
 pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     match Either::deserialize(from)? {
         Either::Number(value) => Ok(value),
-        Either::Text(text) => text
-            .parse()
-            .map_err(|_| serde::de::Error::custom(format!("`{text}` is not a number"))),
+        Either::Text(text) => text.parse().map_err(|_| serde::de::Error::custom(format!("`{text}` is not a number"))),
     }
 }

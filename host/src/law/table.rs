@@ -91,10 +91,7 @@ pub(super) enum Answer {
     Law(Arc<BoundLaw>),
     NoMore,
     Status(i32),
-    Malformed {
-        name: String,
-        error: Box<DescribeError>,
-    },
+    Malformed { name: String, error: Box<DescribeError> },
 }
 
 impl BoundLaw {
@@ -121,25 +118,15 @@ impl BoundLaw {
                 (status, quantity)
             }
         });
-        let described = describe(
-            &table,
-            ask.as_mut().map(|ask| ask as &mut dyn FnMut(i32, i64) -> _),
-        );
+        let described = describe(&table, ask.as_mut().map(|ask| ask as &mut dyn FnMut(i32, i64) -> _));
         match (described, table.evaluate) {
-            (Ok(descriptor), Some(evaluate)) => Answer::Law(Arc::new(Self {
-                descriptor,
-                table,
-                evaluate,
-                entry: Arc::clone(entry),
-            })),
-            (Ok(_), None) => Answer::Malformed {
-                name: readable(&table.name),
-                error: Box::new(DescribeError::NoEvaluate),
-            },
-            (Err(error), _) => Answer::Malformed {
-                name: readable(&table.name),
-                error: Box::new(error),
-            },
+            (Ok(descriptor), Some(evaluate)) => {
+                Answer::Law(Arc::new(Self { descriptor, table, evaluate, entry: Arc::clone(entry) }))
+            }
+            (Ok(_), None) => {
+                Answer::Malformed { name: readable(&table.name), error: Box::new(DescribeError::NoEvaluate) }
+            }
+            (Err(error), _) => Answer::Malformed { name: readable(&table.name), error: Box::new(error) },
         }
     }
 
@@ -158,11 +145,7 @@ impl BoundLaw {
 }
 
 fn readable(bytes: &[c_char]) -> String {
-    let bytes: Vec<u8> = bytes
-        .iter()
-        .map(|byte| byte.to_ne_bytes()[0])
-        .take_while(|byte| *byte != 0)
-        .collect();
+    let bytes: Vec<u8> = bytes.iter().map(|byte| byte.to_ne_bytes()[0]).take_while(|byte| *byte != 0).collect();
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
@@ -190,24 +173,11 @@ impl Created {
         let mut pointer = std::ptr::null_mut();
         if let Some(create) = law.table.create {
             let mut text: [c_char; TEXT_SIZE] = [0; TEXT_SIZE];
-            let words = options
-                .as_ref()
-                .map_or(std::ptr::null(), |options| options.as_ptr());
+            let words = options.as_ref().map_or(std::ptr::null(), |options| options.as_ptr());
             // SAFETY: the function belongs to the law's entry, which is alive; all pointers lead to live values.
-            let status = unsafe {
-                create(
-                    this_host(),
-                    words,
-                    &mut pointer,
-                    text.as_mut_ptr(),
-                    TEXT_SIZE as i64,
-                )
-            };
+            let status = unsafe { create(this_host(), words, &mut pointer, text.as_mut_ptr(), TEXT_SIZE as i64) };
             if status != abi::WL_OK {
-                return Err(Refusal {
-                    status,
-                    text: readable(&text),
-                });
+                return Err(Refusal { status, text: readable(&text) });
             }
         }
         Ok(Self { pointer, law })

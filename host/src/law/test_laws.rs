@@ -65,9 +65,7 @@ impl MemoryLaw for Linear {
     fn create(options: Option<&str>) -> Result<Self, String> {
         match options {
             Some("refuse") => Err("no such table".to_owned()),
-            other => Ok(Self {
-                trouble: other.unwrap_or_default().to_owned(),
-            }),
+            other => Ok(Self { trouble: other.unwrap_or_default().to_owned() }),
         }
     }
 
@@ -82,9 +80,7 @@ impl MemoryLaw for Linear {
                 state[point] = inputs.state(0, point).unwrap_or(f64::NAN) + slip;
             }
             if let Some(direction) = &mut outputs.direction {
-                let normal = inputs
-                    .vector(Field::Normal, point)
-                    .unwrap_or([0.0, 0.0, 1.0]);
+                let normal = inputs.vector(Field::Normal, point).unwrap_or([0.0, 0.0, 1.0]);
                 for (place, component) in direction[3 * point..].iter_mut().zip(normal) {
                     *place = -component;
                 }
@@ -92,11 +88,7 @@ impl MemoryLaw for Linear {
             if let Some(d_pressure) = &mut outputs.d_pressure {
                 d_pressure[point] = factor * slip;
             }
-            let status = if pressure > 100.0 {
-                self.trouble_at(point, outputs)
-            } else {
-                abi::WL_OK
-            };
+            let status = if pressure > 100.0 { self.trouble_at(point, outputs) } else { abi::WL_OK };
             if let Some(statuses) = &mut outputs.status {
                 statuses[point] = status;
             }
@@ -118,18 +110,9 @@ impl Linear {
             "nan" => outputs.increment[point] = f64::NAN,
             "infinite" => outputs.increment[point] = f64::INFINITY,
             "negative" => outputs.increment[point] = -1.5,
-            "long" => outputs
-                .direction
-                .iter_mut()
-                .for_each(|all| all[3 * point] = 2.0),
-            "state" => outputs
-                .state
-                .iter_mut()
-                .for_each(|all| all[point] = f64::NAN),
-            "derivative" => outputs
-                .d_pressure
-                .iter_mut()
-                .for_each(|all| all[point] = f64::NAN),
+            "long" => outputs.direction.iter_mut().for_each(|all| all[3 * point] = 2.0),
+            "state" => outputs.state.iter_mut().for_each(|all| all[point] = f64::NAN),
+            "derivative" => outputs.d_pressure.iter_mut().for_each(|all| all[point] = f64::NAN),
             "panic" => panic!("a law of the tests"),
             _ => {}
         }

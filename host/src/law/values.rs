@@ -57,12 +57,7 @@ pub struct UnitSizes {
 
 impl UnitSizes {
     /// SI units.
-    pub const SI: Self = Self {
-        metre: 1.0,
-        kilogram: 1.0,
-        second: 1.0,
-        kelvin: 1.0,
-    };
+    pub const SI: Self = Self { metre: 1.0, kilogram: 1.0, second: 1.0, kelvin: 1.0 };
 
     /// What a number in the scene's units is multiplied with to be in SI units.
     pub fn factor(&self, exponents: [f64; 4]) -> f64 {

@@ -59,20 +59,12 @@ fn history_rows(history: &History, to: &mut impl Write) -> io::Result<()> {
 
 /// Writes the fields of one time: `point`, then `x,y,z` where they are known, then a column per
 /// component. The caller has checked the lengths (`write_fields` does).
-pub(super) fn field_rows(
-    snapshot: &Snapshot<'_>,
-    geometry: &Geometry<'_>,
-    to: &mut impl Write,
-) -> io::Result<()> {
+pub(super) fn field_rows(snapshot: &Snapshot<'_>, geometry: &Geometry<'_>, to: &mut impl Write) -> io::Result<()> {
     write!(to, "point")?;
     if geometry.count() > 0 && geometry.coordinates(0).is_some() {
         write!(to, ",x,y,z")?;
     }
-    for name in snapshot
-        .fields
-        .iter()
-        .flat_map(|field| field.component_names())
-    {
+    for name in snapshot.fields.iter().flat_map(|field| field.component_names()) {
         write!(to, ",{}", quoted(&name))?;
     }
     writeln!(to)?;
@@ -115,9 +107,7 @@ mod tests {
         let mut row = HistoryRow::at(0.1 + 0.2);
         (row.max_wear_depth, row.load, row.dt) = (7.322_799_325_1e-6, Some(1.0 / 3.0), 5e-324);
         (row.max_pressure, row.wear_volume) = (f64::MAX, Some(-0.0));
-        let history = History {
-            rows: vec![HistoryRow::at(0.0), row],
-        };
+        let history = History { rows: vec![HistoryRow::at(0.0), row] };
         let text = text(|to| history_rows(&history, to));
         let mut reader = ::csv::Reader::from_reader(text.as_bytes());
         assert_eq!(reader.headers().unwrap(), &HISTORY_COLUMNS[..]);
@@ -137,22 +127,13 @@ mod tests {
             Some(1.0),
         ];
         for (column, number) in expected.iter().enumerate() {
-            assert_eq!(
-                cell(column),
-                number.map(f64::to_bits),
-                "{}",
-                HISTORY_COLUMNS[column]
-            );
+            assert_eq!(cell(column), number.map(f64::to_bits), "{}", HISTORY_COLUMNS[column]);
         }
     }
 
     #[test]
     fn fields_have_a_row_per_point_and_a_column_per_component() {
-        let mut points = Points {
-            ids: PointIds::Listed(vec![7, 3].into()),
-            coordinates: None,
-            dimension: 3,
-        };
+        let mut points = Points { ids: PointIds::Listed(vec![7, 3].into()), coordinates: None, dimension: 3 };
         let snapshot = Snapshot {
             time: 1.0,
             step_index: 4,

@@ -40,9 +40,7 @@ pub enum OutputError {
         path: PathBuf,
     },
     /// An array does not have the numbers that its geometry asks for.
-    #[error(
-        "`{name}` holds {found} numbers, expected {expected} ({points} points, {components} each)"
-    )]
+    #[error("`{name}` holds {found} numbers, expected {expected} ({points} points, {components} each)")]
     FieldLength {
         /// Field, or `coordinates`.
         name: String,
@@ -75,10 +73,6 @@ impl OutputError {
     /// Wraps an input or output error with what was tried on which path.
     pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_path_buf();
-        move |source| Self::Io {
-            action,
-            path,
-            source,
-        }
+        move |source| Self::Io { action, path, source }
     }
 }

@@ -67,11 +67,7 @@ impl FieldSeries {
     /// `Io` when the folder cannot be made.
     pub fn begin(folder: &Path, formats: &[FieldFormat]) -> Result<Self, OutputError> {
         fs::create_dir_all(folder).map_err(OutputError::io("create", folder))?;
-        Ok(Self {
-            folder: folder.into(),
-            formats: formats.to_vec(),
-            vtk_files: Vec::new(),
-        })
+        Ok(Self { folder: folder.into(), formats: formats.to_vec(), vtk_files: Vec::new() })
     }
 
     /// Goes on with a series whose earlier VTK files (`vtk_files` of the run that was stopped) are
@@ -84,19 +80,11 @@ impl FieldSeries {
     ///
     /// # Errors
     /// As `write_fields`.
-    pub fn write(
-        &mut self,
-        snapshot: &Snapshot<'_>,
-        geometry: &Geometry<'_>,
-    ) -> Result<(), OutputError> {
+    pub fn write(&mut self, snapshot: &Snapshot<'_>, geometry: &Geometry<'_>) -> Result<(), OutputError> {
         for &format in &self.formats {
             let path = write_fields(&self.folder, format, snapshot, geometry)?;
             if format == FieldFormat::Vtk {
-                let name = path
-                    .file_name()
-                    .unwrap_or_default()
-                    .to_string_lossy()
-                    .into_owned();
+                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
                 self.vtk_files.retain(|(_, earlier)| *earlier != name);
                 self.vtk_files.push((snapshot.time, name));
             }
@@ -129,13 +117,7 @@ fn check(snapshot: &Snapshot<'_>, geometry: &Geometry<'_>) -> Result<(), OutputE
         if found == expected && components > 0 {
             return Ok(());
         }
-        Err(OutputError::FieldLength {
-            name: name.into(),
-            found,
-            expected,
-            points,
-            components,
-        })
+        Err(OutputError::FieldLength { name: name.into(), found, expected, points, components })
     };
     let mut taken: HashSet<String> = ["point", "x", "y", "z"].map(String::from).into();
     taken.extend(["time", "step", "cells", "size", "origin"].map(String::from));
@@ -166,19 +148,11 @@ mod tests {
 
     fn bare(count: usize) -> Geometry<'static> {
         let ids = PointIds::Counted { first: 0, count };
-        Geometry::Points(Points {
-            ids,
-            coordinates: None,
-            dimension: 3,
-        })
+        Geometry::Points(Points { ids, coordinates: None, dimension: 3 })
     }
 
     fn snapshot(time: f64, step_index: u64, fields: Vec<Field<'_>>) -> Snapshot<'_> {
-        Snapshot {
-            time,
-            step_index,
-            fields,
-        }
+        Snapshot { time, step_index, fields }
     }
 
     #[test]
@@ -190,15 +164,11 @@ mod tests {
         series.resume([(-1.0, "fields-earlier.vtp".to_owned())]);
         for (time, step) in [(0.0, 0), (0.5, 12)] {
             let fields = vec![Field::scalar("wear", vec![time; 3], "m")];
-            series
-                .write(&snapshot(time, step, fields), &bare(3))
-                .unwrap();
+            series.write(&snapshot(time, step, fields), &bare(3)).unwrap();
         }
         series.finish().unwrap();
-        let mut names: Vec<_> = fs::read_dir(&folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
+        let mut names: Vec<_> =
+            fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         let expected = [
             "fields-000000.csv",
@@ -225,22 +195,12 @@ mod tests {
             error.to_string()
         };
         let short = vec![Field::scalar("wear", vec![0.0; 2], "m")];
-        assert_eq!(
-            refused(short, &bare(3)),
-            "`wear` holds 2 numbers, expected 3 (3 points, 1 each)"
-        );
-        let twice = vec![
-            Field::scalar("slip_x", vec![0.0; 3], "m"),
-            Field::vector("slip", vec![0.0; 9], "m"),
-        ];
+        assert_eq!(refused(short, &bare(3)), "`wear` holds 2 numbers, expected 3 (3 points, 1 each)");
+        let twice = vec![Field::scalar("slip_x", vec![0.0; 3], "m"), Field::vector("slip", vec![0.0; 9], "m")];
         assert!(refused(twice, &bare(3)).contains("two fields are called `slip_x`"));
         let ids = PointIds::Counted { first: 0, count: 3 };
         let coordinates = Some(vec![0.0; 8].into());
-        let placed = Geometry::Points(Points {
-            ids,
-            coordinates,
-            dimension: 3,
-        });
+        let placed = Geometry::Points(Points { ids, coordinates, dimension: 3 });
         assert!(refused(Vec::new(), &placed).contains("`coordinates` holds 8 numbers"));
     }
 }

@@ -6,18 +6,12 @@ use std::io::{self, Write};
 const PIECE: usize = 4096;
 
 /// Writes `numbers` as 8-byte little-endian floats.
-pub(super) fn write_floats(
-    to: &mut impl Write,
-    numbers: impl IntoIterator<Item = f64>,
-) -> io::Result<()> {
+pub(super) fn write_floats(to: &mut impl Write, numbers: impl IntoIterator<Item = f64>) -> io::Result<()> {
     write_words(to, numbers.into_iter().map(f64::to_le_bytes))
 }
 
 /// Writes `numbers` as 8-byte little-endian unsigned integers.
-pub(super) fn write_counts(
-    to: &mut impl Write,
-    numbers: impl IntoIterator<Item = u64>,
-) -> io::Result<()> {
+pub(super) fn write_counts(to: &mut impl Write, numbers: impl IntoIterator<Item = u64>) -> io::Result<()> {
     write_words(to, numbers.into_iter().map(u64::to_le_bytes))
 }
 
@@ -45,10 +39,7 @@ mod tests {
         for count in [0, 1, PIECE - 1, PIECE, PIECE + 1, 3 * PIECE] {
             let mut bytes = Vec::new();
             write_counts(&mut bytes, 0..count as u64).unwrap();
-            let back: Vec<u64> = bytes
-                .chunks_exact(8)
-                .map(|w| u64::from_le_bytes(w.try_into().unwrap()))
-                .collect();
+            let back: Vec<u64> = bytes.chunks_exact(8).map(|w| u64::from_le_bytes(w.try_into().unwrap())).collect();
             assert_eq!(back, (0..count as u64).collect::<Vec<_>>());
         }
         let mut bytes = Vec::new();

@@ -16,6 +16,6 @@ pub mod whole;
 pub use csv::write_history;
 pub use error::OutputError;
 pub use fields::{FieldFormat, FieldSeries, write_fields};
-pub use report::{LawReport, Report, StabilityReport};
 pub use plot::{Figure, write_plot};
+pub use report::{LawReport, Report, StabilityReport};
 pub use whole::{WholeFolder, check_folder, write_file, write_file_synced};

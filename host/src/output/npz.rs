@@ -58,22 +58,12 @@ pub(super) fn write_arrays(
 struct Archive<W: Write + Seek>(ZipWriter<W>);
 
 impl<W: Write + Seek> Archive<W> {
-    fn floats(
-        &mut self,
-        name: &str,
-        shape: &[usize],
-        numbers: impl IntoIterator<Item = f64>,
-    ) -> io::Result<()> {
+    fn floats(&mut self, name: &str, shape: &[usize], numbers: impl IntoIterator<Item = f64>) -> io::Result<()> {
         self.start(name, "<f8", shape)?;
         write_floats(&mut self.0, numbers)
     }
 
-    fn counts(
-        &mut self,
-        name: &str,
-        shape: &[usize],
-        numbers: impl IntoIterator<Item = u64>,
-    ) -> io::Result<()> {
+    fn counts(&mut self, name: &str, shape: &[usize], numbers: impl IntoIterator<Item = u64>) -> io::Result<()> {
         self.start(name, "<u8", shape)?;
         write_counts(&mut self.0, numbers)
     }
@@ -98,11 +88,7 @@ fn npy_header(kind: &str, shape: &[usize]) -> Vec<u8> {
         tuple += &format!("{length}, ");
     }
     // One length keeps its comma: (3,) is a tuple, (3) is not.
-    let tuple = if shape.len() == 1 {
-        tuple.trim_end()
-    } else {
-        tuple.trim_end_matches(", ")
-    };
+    let tuple = if shape.len() == 1 { tuple.trim_end() } else { tuple.trim_end_matches(", ") };
     let mut text = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({tuple}), }}");
     let prefix = 10;
     while !(prefix + text.len() + 1).is_multiple_of(64) {
@@ -131,14 +117,8 @@ mod tests {
         assert_eq!(&raw[..8], b"\x93NUMPY\x01\x00");
         let end = 10 + usize::from(u16::from_le_bytes([raw[8], raw[9]]));
         assert_eq!(end % 64, 0);
-        let header = std::str::from_utf8(&raw[10..end])
-            .unwrap()
-            .trim_end()
-            .to_owned();
-        let words = raw[end..]
-            .chunks_exact(8)
-            .map(|w| u64::from_le_bytes(w.try_into().unwrap()))
-            .collect();
+        let header = std::str::from_utf8(&raw[10..end]).unwrap().trim_end().to_owned();
+        let words = raw[end..].chunks_exact(8).map(|w| u64::from_le_bytes(w.try_into().unwrap())).collect();
         (header, words)
     }
 
@@ -154,25 +134,16 @@ mod tests {
         let snapshot = Snapshot {
             time: 0.5,
             step_index: 9,
-            fields: vec![
-                Field::scalar("wear", &wear[..], "m"),
-                Field::vector("slip", vec![1.5; 15000], "m"),
-            ],
+            fields: vec![Field::scalar("wear", &wear[..], "m"), Field::vector("slip", vec![1.5; 15000], "m")],
         };
         let geometry = Geometry::Points(Points {
-            ids: PointIds::Counted {
-                first: 1,
-                count: 5000,
-            },
+            ids: PointIds::Counted { first: 1, count: 5000 },
             coordinates: Some((0..15000).map(f64::from).collect::<Vec<_>>().into()),
             dimension: 3,
         });
         let bytes = written(&snapshot, &geometry);
         let (header, words) = array(&bytes, "wear");
-        assert_eq!(
-            header,
-            "{'descr': '<f8', 'fortran_order': False, 'shape': (5000,), }"
-        );
+        assert_eq!(header, "{'descr': '<f8', 'fortran_order': False, 'shape': (5000,), }");
         assert_eq!(words, wear.iter().map(|w| w.to_bits()).collect::<Vec<_>>());
         let (header, words) = array(&bytes, "slip");
         assert!(header.contains("'shape': (5000, 3), "), "{header}");
@@ -182,25 +153,14 @@ mod tests {
         let (header, words) = array(&bytes, "time");
         assert!(header.contains("'shape': (), "), "{header}");
         assert_eq!(words, [0.5_f64.to_bits()]);
-        assert_eq!(
-            bytes,
-            written(&snapshot, &geometry),
-            "the same record gives the same bytes"
-        );
+        assert_eq!(bytes, written(&snapshot, &geometry), "the same record gives the same bytes");
     }
 
     #[test]
     fn a_grid_has_rows_along_y() {
-        let snapshot = Snapshot {
-            time: 0.0,
-            step_index: 0,
-            fields: vec![Field::scalar("pressure", vec![0.0; 6], "Pa")],
-        };
-        let grid = Grid {
-            cells: [3, 2],
-            size: [3.0, 2.0],
-            origin: [0.0, 0.0],
-        };
+        let snapshot =
+            Snapshot { time: 0.0, step_index: 0, fields: vec![Field::scalar("pressure", vec![0.0; 6], "Pa")] };
+        let grid = Grid { cells: [3, 2], size: [3.0, 2.0], origin: [0.0, 0.0] };
         let bytes = written(&snapshot, &Geometry::Grid(grid));
         let (header, _) = array(&bytes, "pressure");
         assert!(header.contains("'descr': '<f8'") && header.contains("'shape': (2, 3), "));

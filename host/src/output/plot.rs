@@ -48,10 +48,7 @@ pub struct Figure<'a> {
 /// # Errors
 /// `Drawing` when it cannot be drawn, `Io` when it cannot be written, both with the path.
 pub fn write_plot(figure: &Figure<'_>, path: &Path) -> Result<(), OutputError> {
-    let svg = draw(figure).map_err(|source| OutputError::Drawing {
-        path: path.into(),
-        source: source.into(),
-    })?;
+    let svg = draw(figure).map_err(|source| OutputError::Drawing { path: path.into(), source: source.into() })?;
     write_file(path, |to| to.write_all(svg.as_bytes()))
 }
 
@@ -62,42 +59,19 @@ fn draw(figure: &Figure<'_>) -> Result<String, DrawingFailure> {
     let sheet = SVGBackend::with_string(&mut svg, fine_size).into_drawing_area();
     let (width, height) = (f64::from(SIZE.0), f64::from(SIZE.1));
     panel::paper(&sheet, (width, height))?;
-    write(
-        &sheet,
-        &shortened(figure.title),
-        (28.0, 32.0),
-        Style::title(19.0),
-    )?;
-    write(
-        &sheet,
-        &summary(figure),
-        (28.0, 57.0),
-        Style::left(13.0, QUIET),
-    )?;
+    write(&sheet, &shortened(figure.title), (28.0, 32.0), Style::title(19.0))?;
+    write(&sheet, &summary(figure), (28.0, 57.0), Style::left(13.0, QUIET))?;
     let columns = [(84.0, 484.0), (572.0, 972.0)];
     let rows = [(118.0, 326.0), (428.0, 636.0)];
     for (i, panel) in panels(figure).iter().enumerate() {
         let ((left, right), (top, bottom)) = (columns[i % 2], rows[i / 2]);
-        panel.draw(
-            &sheet,
-            Place {
-                left,
-                top,
-                right,
-                bottom,
-            },
-        )?;
+        panel.draw(&sheet, Place { left, top, right, bottom })?;
     }
     sheet.present()?;
     drop(sheet);
-    let fine = format!(
-        "width=\"{}\" height=\"{}\" viewBox",
-        fine_size.0, fine_size.1
-    );
-    let shown = format!(
-        "width=\"{}\" height=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"butt\" viewBox",
-        SIZE.0, SIZE.1
-    );
+    let fine = format!("width=\"{}\" height=\"{}\" viewBox", fine_size.0, fine_size.1);
+    let shown =
+        format!("width=\"{}\" height=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"butt\" viewBox", SIZE.0, SIZE.1);
     Ok(svg.replacen(&fine, &shown, 1))
 }
 
@@ -107,32 +81,19 @@ fn panels(figure: &Figure<'_>) -> [Panel; 4] {
         Some(profile) => profiles(profile, units),
         None => loading(figure.history, units),
     };
-    let depth = over_time(figure, ("Largest wear depth", &units.length), |row| {
-        Some(row.max_wear_depth)
-    });
+    let depth = over_time(figure, ("Largest wear depth", &units.length), |row| Some(row.max_wear_depth));
     let last = if rows.iter().any(|row| row.wear_volume.is_some()) {
-        over_time(figure, ("Worn volume", &units.volume()), |row| {
-            row.wear_volume
-        })
+        over_time(figure, ("Worn volume", &units.volume()), |row| row.wear_volume)
     } else {
         // Without areas there is no volume; the distance tells what the depth came from.
-        over_time(figure, ("Sliding distance", &units.length), |row| {
-            Some(row.sliding_distance)
-        })
+        over_time(figure, ("Sliding distance", &units.length), |row| Some(row.sliding_distance))
     };
     [first, second, depth, last]
 }
 
 fn profiles(profile: &Profile<'_>, units: &Units) -> [Panel; 2] {
     let panel = |quantity: (&str, &str), start: &[f64], end: &[f64]| {
-        let along = |field: &[f64]| {
-            profile
-                .coordinate
-                .iter()
-                .copied()
-                .zip(field.iter().copied())
-                .collect::<Vec<_>>()
-        };
+        let along = |field: &[f64]| profile.coordinate.iter().copied().zip(field.iter().copied()).collect::<Vec<_>>();
         let mut curves = vec![
             Curve::new("end", Look::End, along(end).into_iter()),
             Curve::new("start", Look::Start, along(start).into_iter()),
@@ -140,11 +101,7 @@ fn profiles(profile: &Profile<'_>, units: &Units) -> [Panel; 2] {
         for curve in &mut curves {
             curve.dots = profile.axis == "point";
         }
-        let name = if profile.axis == "point" {
-            axis::COUNT
-        } else {
-            &profile.axis
-        };
+        let name = if profile.axis == "point" { axis::COUNT } else { &profile.axis };
         Panel {
             across: Axis::spanning((name, &profile.unit), profile.coordinate.iter().copied(), 5),
             up: Axis::from_zero(quantity, start.iter().chain(end).copied(), 5),
@@ -152,57 +109,26 @@ fn profiles(profile: &Profile<'_>, units: &Units) -> [Panel; 2] {
         }
     };
     [
-        panel(
-            ("Contact pressure", &units.pressure()),
-            &profile.pressure_start,
-            &profile.pressure_end,
-        ),
-        panel(
-            ("Wear depth", &units.length),
-            &profile.wear_start,
-            &profile.wear_end,
-        ),
+        panel(("Contact pressure", &units.pressure()), &profile.pressure_start, &profile.pressure_end),
+        panel(("Wear depth", &units.length), &profile.wear_start, &profile.wear_end),
     ]
 }
 
 fn loading(history: &History, units: &Units) -> [Panel; 2] {
     let pressure = history.rows.iter().map(|row| (row.time, row.max_pressure));
-    let velocity: Vec<(f64, f64)> = history
-        .sliding_velocity()
-        .flat_map(|(start, end, velocity)| [(start, velocity), (end, velocity)])
-        .collect();
+    let velocity: Vec<(f64, f64)> =
+        history.sliding_velocity().flat_map(|(start, end, velocity)| [(start, velocity), (end, velocity)]).collect();
     let pressure = Curve::new("", Look::End, pressure);
     // Means over steps: the corners are no measured instants.
-    let velocity = Curve {
-        dots: false,
-        ..Curve::new("", Look::End, velocity.into_iter())
-    };
+    let velocity = Curve { dots: false, ..Curve::new("", Look::End, velocity.into_iter()) };
     [
-        timed(
-            history,
-            ("Largest contact pressure", &units.pressure()),
-            units,
-            pressure,
-        ),
-        timed(
-            history,
-            ("Sliding velocity, mean over each step", &units.velocity()),
-            units,
-            velocity,
-        ),
+        timed(history, ("Largest contact pressure", &units.pressure()), units, pressure),
+        timed(history, ("Sliding velocity, mean over each step", &units.velocity()), units, velocity),
     ]
 }
 
-fn over_time(
-    figure: &Figure<'_>,
-    quantity: (&str, &str),
-    value: impl Fn(&HistoryRow) -> Option<f64>,
-) -> Panel {
-    let points = figure
-        .history
-        .rows
-        .iter()
-        .map(|row| (row.time, value(row).unwrap_or(f64::NAN)));
+fn over_time(figure: &Figure<'_>, quantity: (&str, &str), value: impl Fn(&HistoryRow) -> Option<f64>) -> Panel {
+    let points = figure.history.rows.iter().map(|row| (row.time, value(row).unwrap_or(f64::NAN)));
     let curve = Curve::new("", Look::End, points);
     timed(figure.history, quantity, figure.units, curve)
 }
@@ -210,9 +136,7 @@ fn over_time(
 fn timed(history: &History, quantity: (&str, &str), units: &Units, curve: Curve) -> Panel {
     // A history that begins with its first step begins where that step did.
     let start = history.rows.first().map(|row| row.time - row.dt);
-    let times = start
-        .into_iter()
-        .chain(history.rows.iter().map(|row| row.time));
+    let times = start.into_iter().chain(history.rows.iter().map(|row| row.time));
     Panel {
         across: Axis::spanning(("Time", &units.time), times, 5),
         up: Axis::from_zero(quantity, curve.points.iter().map(|&(_, y)| y), 5),
@@ -244,10 +168,7 @@ fn shortened(title: &str) -> String {
 
 fn fine((x, y): (f64, f64)) -> (i32, i32) {
     // `as` saturates, so that a number far outside the figure cannot wrap into it.
-    (
-        (x * f64::from(FINE)).round() as i32,
-        (y * f64::from(FINE)).round() as i32,
-    )
+    ((x * f64::from(FINE)).round() as i32, (y * f64::from(FINE)).round() as i32)
 }
 
 #[cfg(test)]

@@ -12,22 +12,14 @@ use std::path::Path;
 /// Writes the fields of one time: points with a cell that shows them all, or a grid with cell
 /// data. Points without coordinates lie on a line, at x = their index. The caller has checked the
 /// lengths (`write_fields` does).
-pub(super) fn write_vtk(
-    snapshot: &Snapshot<'_>,
-    geometry: &Geometry<'_>,
-    to: &mut impl Write,
-) -> io::Result<()> {
+pub(super) fn write_vtk(snapshot: &Snapshot<'_>, geometry: &Geometry<'_>, to: &mut impl Write) -> io::Result<()> {
     match geometry {
         Geometry::Points(points) => write_points(snapshot, points, to),
         Geometry::Grid(grid) => write_grid(snapshot, grid, to),
     }
 }
 
-fn write_points(
-    snapshot: &Snapshot<'_>,
-    points: &Points<'_>,
-    to: &mut impl Write,
-) -> io::Result<()> {
+fn write_points(snapshot: &Snapshot<'_>, points: &Points<'_>, to: &mut impl Write) -> io::Result<()> {
     let count = points.ids.count();
     // One poly-vertex for all points: a vertex each would double the size of a scalar field.
     let cells = usize::from(count > 0);
@@ -78,16 +70,9 @@ fn write_grid(snapshot: &Snapshot<'_>, grid: &Grid, to: &mut impl Write) -> io::
     let [x, y] = grid.origin;
     let mut offsets = Offsets(0);
     begin(to, "ImageData")?;
-    writeln!(
-        to,
-        "<ImageData WholeExtent=\"{extent}\" Origin=\"{x:?} {y:?} 0\" Spacing=\"{dx:?} {dy:?} {dx:?}\">"
-    )?;
+    writeln!(to, "<ImageData WholeExtent=\"{extent}\" Origin=\"{x:?} {y:?} 0\" Spacing=\"{dx:?} {dy:?} {dx:?}\">")?;
     write_time(to, snapshot.time)?;
-    writeln!(
-        to,
-        "<Piece Extent=\"{extent}\">\n<CellData{}>",
-        active(&snapshot.fields)
-    )?;
+    writeln!(to, "<Piece Extent=\"{extent}\">\n<CellData{}>", active(&snapshot.fields))?;
     for field in &snapshot.fields {
         declare_field(to, field, &mut offsets)?;
     }
@@ -109,10 +94,7 @@ pub fn write_series(path: &Path, files: &[(f64, String)]) -> Result<(), OutputEr
         writeln!(to, "<Collection>")?;
         for (time, file) in files {
             let file = escaped(file);
-            writeln!(
-                to,
-                "<DataSet timestep=\"{time:?}\" group=\"\" part=\"0\" file=\"{file}\"/>"
-            )?;
+            writeln!(to, "<DataSet timestep=\"{time:?}\" group=\"\" part=\"0\" file=\"{file}\"/>")?;
         }
         writeln!(to, "</Collection>\n</VTKFile>")
     })
@@ -132,10 +114,7 @@ impl Offsets {
 
 fn begin(to: &mut impl Write, kind: &str) -> io::Result<()> {
     writeln!(to, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>")?;
-    writeln!(
-        to,
-        "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">"
-    )
+    writeln!(to, "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">")
 }
 
 fn write_time(to: &mut impl Write, time: f64) -> io::Result<()> {
@@ -156,24 +135,10 @@ fn active(fields: &[Field<'_>]) -> String {
 
 fn declare_field(to: &mut impl Write, field: &Field<'_>, offsets: &mut Offsets) -> io::Result<()> {
     let offset = offsets.next(field.data.len());
-    declare(
-        to,
-        "Float64",
-        &field.name,
-        field.components,
-        &field.unit,
-        offset,
-    )
+    declare(to, "Float64", &field.name, field.components, &field.unit, offset)
 }
 
-fn declare(
-    to: &mut impl Write,
-    kind: &str,
-    name: &str,
-    components: usize,
-    unit: &str,
-    offset: u64,
-) -> io::Result<()> {
+fn declare(to: &mut impl Write, kind: &str, name: &str, components: usize, unit: &str, offset: u64) -> io::Result<()> {
     let name = escaped(name);
     write!(
         to,
@@ -194,20 +159,12 @@ fn begin_blocks(to: &mut impl Write) -> io::Result<()> {
     write!(to, "<AppendedData encoding=\"raw\">\n_")
 }
 
-fn write_block(
-    to: &mut impl Write,
-    words: usize,
-    numbers: impl Iterator<Item = f64>,
-) -> io::Result<()> {
+fn write_block(to: &mut impl Write, words: usize, numbers: impl Iterator<Item = f64>) -> io::Result<()> {
     write_counts(to, [8 * words as u64])?;
     write_floats(to, numbers)
 }
 
-fn write_block_of_counts(
-    to: &mut impl Write,
-    words: usize,
-    numbers: impl Iterator<Item = u64>,
-) -> io::Result<()> {
+fn write_block_of_counts(to: &mut impl Write, words: usize, numbers: impl Iterator<Item = u64>) -> io::Result<()> {
     write_counts(to, [8 * words as u64])?;
     write_counts(to, numbers)
 }

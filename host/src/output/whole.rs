@@ -28,10 +28,7 @@ const REPLACED: &str = ".replaced";
 /// # Errors
 /// `Io` with the path and the step that failed; then nothing is left of the file, and a file that
 /// had this name before is as it was.
-pub fn write_file(
-    path: &Path,
-    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), OutputError> {
+pub fn write_file(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), OutputError> {
     write_aside(path, fill, |_| Ok(()))
 }
 
@@ -54,9 +51,7 @@ fn write_aside(
     let mut builder = Builder::new();
     builder.prefix(ASIDE);
     permit(&mut builder, 0o666);
-    let aside = builder
-        .tempfile_in(parent(path))
-        .map_err(OutputError::io("create", path))?;
+    let aside = builder.tempfile_in(parent(path)).map_err(OutputError::io("create", path))?;
     let (file, name) = aside.into_parts();
     let mut writer = BufWriter::with_capacity(1 << 16, file);
     fill(&mut writer)
@@ -64,9 +59,7 @@ fn write_aside(
         .and_then(|()| settle(writer.get_ref()))
         .map_err(OutputError::io("write", path))?;
     drop(writer);
-    name.persist(path)
-        .map_err(|failed| failed.error)
-        .map_err(OutputError::io("rename", path))
+    name.persist(path).map_err(|failed| failed.error).map_err(OutputError::io("rename", path))
 }
 
 /// Checks that results may go to the folder `path`: it is new, empty, or an earlier result.
@@ -86,14 +79,9 @@ pub fn check_folder(path: &Path) -> Result<(), OutputError> {
     }
     // A run killed while it placed its files leaves only names of this kind.
     let mut names = names_in(path)?;
-    names.retain(|name| {
-        !(FILES.contains(&name.as_str()) || name == FIELDS || name.starts_with(ASIDE))
-    });
+    names.retain(|name| !(FILES.contains(&name.as_str()) || name == FIELDS || name.starts_with(ASIDE)));
     match names.into_iter().next() {
-        Some(found) => Err(OutputError::NotAResult {
-            path: path.into(),
-            found,
-        }),
+        Some(found) => Err(OutputError::NotAResult { path: path.into(), found }),
         None => Ok(()),
     }
 }
@@ -124,15 +112,8 @@ impl WholeFolder {
             let name = target.file_name().unwrap_or_default().to_string_lossy();
             (format!(".{name}{ASIDE}"), place)
         };
-        let aside = builder
-            .prefix(&prefix)
-            .tempdir_in(place)
-            .map_err(OutputError::io("create a folder in", place))?;
-        Ok(Self {
-            target: target.into(),
-            aside,
-            kept: BTreeSet::new(),
-        })
+        let aside = builder.prefix(&prefix).tempdir_in(place).map_err(OutputError::io("create a folder in", place))?;
+        Ok(Self { target: target.into(), aside, kept: BTreeSet::new() })
     }
 
     /// The folder to write into.
@@ -236,8 +217,7 @@ impl Moves {
 
 /// Whether a run writes a file of this name (relative to its folder).
 fn is_result(name: &Path) -> bool {
-    let text =
-        |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let text = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     if parent(name) == Path::new(FIELDS) {
         let (stem, ending) = (text(name.file_stem()), text(name.extension()));
         return stem.starts_with(FIELDS) && FIELD_ENDINGS.contains(&ending.as_str());
@@ -255,11 +235,7 @@ fn results_in(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Result<Vec<PathB
     let fields = folder.join(FIELDS);
     if fields.is_dir() {
         found.retain(|name| name != Path::new(FIELDS));
-        found.extend(
-            names_in(&fields)?
-                .into_iter()
-                .map(|name| Path::new(FIELDS).join(name)),
-        );
+        found.extend(names_in(&fields)?.into_iter().map(|name| Path::new(FIELDS).join(name)));
     }
     found.retain(|name| wanted(name));
     found.sort();

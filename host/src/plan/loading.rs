@@ -103,12 +103,7 @@ fn given_once(scene: &Scene, header: &Header, base: &str, step: &Step) -> Result
 }
 
 /// The first step as it follows what came before, and all steps as they follow each other.
-fn lower(
-    scene: &Scene,
-    base: &str,
-    steps: &[Step],
-    before: &mut Step,
-) -> Result<(LoadStep, Vec<LoadStep>), PlanError> {
+fn lower(scene: &Scene, base: &str, steps: &[Step], before: &mut Step) -> Result<(LoadStep, Vec<LoadStep>), PlanError> {
     let file = |step: &Step| matches!(step.sliding, Some(Sliding::Velocity { velocity: Field::File(_) }));
     if let Some(index) = steps.iter().position(file) {
         return Err(scene.error_at(&format!("{base}.{index}.velocity"), PlanProblem::VelocityFile));

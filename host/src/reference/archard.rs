@@ -22,12 +22,7 @@ pub struct ArchardConstants {
 impl ArchardConstants {
     /// From the order K, H, m, n.
     pub fn from_array([k, h, m, n]: [f64; 4]) -> ArchardConstants {
-        ArchardConstants {
-            wear_coefficient: k,
-            hardness: h,
-            pressure_exponent: m,
-            velocity_exponent: n,
-        }
+        ArchardConstants { wear_coefficient: k, hardness: h, pressure_exponent: m, velocity_exponent: n }
     }
 
     fn mix(&self, other: &ArchardConstants, left: f64, right: f64) -> ArchardConstants {
@@ -96,9 +91,7 @@ pub fn constant_rate(
 ) -> Result<f64, ArchardReferenceError> {
     check(constants)?;
     if velocity == 0.0 && constants.velocity_exponent < 0.0 && pressure > 0.0 {
-        return Err(ArchardReferenceError::VelocityExponent(
-            constants.velocity_exponent,
-        ));
+        return Err(ArchardReferenceError::VelocityExponent(constants.velocity_exponent));
     }
     finite(rate(constants, pressure, velocity, duration))
 }
@@ -130,20 +123,14 @@ pub fn linear_tables_unit_exponents(
     }
     let x = h1 * duration / h0;
     let log = x.ln_1p();
-    let (f, g) = if x.abs() < 0.1 {
-        log_series(x)
-    } else {
-        (log / x, (x - log) / (x * x))
-    };
+    let (f, g) = if x.abs() < 0.1 { log_series(x) } else { (log / x, (x - log) / (x * x)) };
     finite(pressure * velocity.abs() * duration / h0 * (k0 * f + k1 * duration * g))
 }
 
 /// ln(1 + x) / x and (x - ln(1 + x)) / x^2 by their series, for |x| below 0.1.
 fn log_series(x: f64) -> (f64, f64) {
     // g = sum (-x)^j / (j + 2), and f = 1 - x g; 18 terms reach 1e-18.
-    let g = (0..18)
-        .rev()
-        .fold(0.0, |sum, j| 1.0 / f64::from(j + 2) - x * sum);
+    let g = (0..18).rev().fold(0.0, |sum, j| 1.0 / f64::from(j + 2) - x * sum);
     (1.0 - x * g, g)
 }
 
@@ -189,12 +176,7 @@ fn closed_pieces(
     pieces: &[Piece],
     mean: impl Fn([f64; 2], [f64; 2]) -> f64,
 ) -> Result<f64, ArchardReferenceError> {
-    check(&ArchardConstants::from_array([
-        wear_coefficient,
-        hardness,
-        1.0,
-        1.0,
-    ]))?;
+    check(&ArchardConstants::from_array([wear_coefficient, hardness, 1.0, 1.0]))?;
     let mut sum = Compensated::default();
     for piece in pieces.iter().flat_map(|piece| without_zeros(piece, &[])) {
         sum.add((piece.time[1] - piece.time[0]) * mean(piece.pressure, piece.velocity));
@@ -235,19 +217,13 @@ pub fn prescribed(table: &[TablePoint], pieces: &[Piece]) -> Result<f64, Archard
             return Err(ArchardReferenceError::VelocityExponent(least));
         }
         let length = end - start;
-        let steady = first == last
-            && piece.pressure[0] == piece.pressure[1]
-            && piece.velocity[0] == piece.velocity[1];
+        let steady = first == last && piece.pressure[0] == piece.pressure[1] && piece.velocity[0] == piece.velocity[1];
         if steady {
             sum.add(rate(&first, piece.pressure[0], piece.velocity[0], length));
             continue;
         }
         let mix = |ends: [f64; 2], left: f64, right: f64| {
-            if ends[0] == ends[1] {
-                ends[0]
-            } else {
-                ends[0] * left + ends[1] * right
-            }
+            if ends[0] == ends[1] { ends[0] } else { ends[0] * left + ends[1] * right }
         };
         sum.add(tanh_sinh(length, |from_start, from_end| {
             let (left, right) = (from_end / length, from_start / length);
@@ -279,11 +255,7 @@ fn without_zeros(piece: &Piece, cuts: &[f64]) -> Vec<Piece> {
     let zeros = [zero_of(piece.pressure), zero_of(piece.velocity)];
     let mut at: Vec<f64> = vec![0.0, 1.0];
     at.extend(zeros.iter().flatten());
-    at.extend(
-        cuts.iter()
-            .filter(|t| start < **t && **t < end)
-            .map(|t| (t - start) / length),
-    );
+    at.extend(cuts.iter().filter(|t| start < **t && **t < end).map(|t| (t - start) / length));
     at.sort_by(f64::total_cmp);
     at.dedup();
     let value = |[a, b]: [f64; 2], s: f64, zero: Option<f64>| {
@@ -302,40 +274,21 @@ fn without_zeros(piece: &Piece, cuts: &[f64]) -> Vec<Piece> {
     };
     let between = at.windows(2).filter(|_| length > 0.0).map(|s| Piece {
         time: [time(s[0]), time(s[1])],
-        pressure: [
-            value(piece.pressure, s[0], zeros[0]),
-            value(piece.pressure, s[1], zeros[0]),
-        ],
-        velocity: [
-            value(piece.velocity, s[0], zeros[1]).abs(),
-            value(piece.velocity, s[1], zeros[1]).abs(),
-        ],
+        pressure: [value(piece.pressure, s[0], zeros[0]), value(piece.pressure, s[1], zeros[0])],
+        velocity: [value(piece.velocity, s[0], zeros[1]).abs(), value(piece.velocity, s[1], zeros[1]).abs()],
     });
-    between
-        .filter(|piece| piece.pressure.iter().sum::<f64>() > 0.0)
-        .collect()
+    between.filter(|piece| piece.pressure.iter().sum::<f64>() > 0.0).collect()
 }
 
 /// K p^m |v|^n / H times a factor; by logarithms where a partial product leaves the range of doubles.
 fn rate(constants: &ArchardConstants, pressure: f64, velocity: f64, factor: f64) -> f64 {
-    let ArchardConstants {
-        wear_coefficient: k,
-        hardness: h,
-        pressure_exponent: m,
-        velocity_exponent: n,
-    } = *constants;
+    let ArchardConstants { wear_coefficient: k, hardness: h, pressure_exponent: m, velocity_exponent: n } = *constants;
     let v = velocity.abs();
     if pressure <= 0.0 || k == 0.0 || factor == 0.0 || (v == 0.0 && n > 0.0) {
         return 0.0;
     }
     let powers = [pressure.powf(m), v.powf(n)];
-    let parts = [
-        k,
-        powers[0],
-        k * powers[0],
-        powers[1],
-        k * powers[0] * powers[1],
-    ];
+    let parts = [k, powers[0], k * powers[0], powers[1], k * powers[0] * powers[1]];
     let product = parts[4] / h * factor;
     let safe = |x: &f64| x.is_normal();
     if parts.iter().all(safe) && product.is_normal() {
@@ -346,11 +299,7 @@ fn rate(constants: &ArchardConstants, pressure: f64, velocity: f64, factor: f64)
 }
 
 fn check(constants: &ArchardConstants) -> Result<(), ArchardReferenceError> {
-    let (k, h, m) = (
-        constants.wear_coefficient,
-        constants.hardness,
-        constants.pressure_exponent,
-    );
+    let (k, h, m) = (constants.wear_coefficient, constants.hardness, constants.pressure_exponent);
     if !h.is_finite() || h <= 0.0 {
         Err(ArchardReferenceError::Hardness(h))
     } else if !k.is_finite() || k < 0.0 {
@@ -358,20 +307,14 @@ fn check(constants: &ArchardConstants) -> Result<(), ArchardReferenceError> {
     } else if !m.is_finite() || m < 0.0 {
         Err(ArchardReferenceError::PressureExponent(m))
     } else if !constants.velocity_exponent.is_finite() {
-        Err(ArchardReferenceError::VelocityExponent(
-            constants.velocity_exponent,
-        ))
+        Err(ArchardReferenceError::VelocityExponent(constants.velocity_exponent))
     } else {
         Ok(())
     }
 }
 
 fn finite(depth: f64) -> Result<f64, ArchardReferenceError> {
-    if depth.is_finite() {
-        Ok(depth)
-    } else {
-        Err(ArchardReferenceError::NotFinite)
-    }
+    if depth.is_finite() { Ok(depth) } else { Err(ArchardReferenceError::NotFinite) }
 }
 
 #[cfg(test)]

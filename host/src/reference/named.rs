@@ -30,9 +30,7 @@ impl NamedReference {
 
     /// The answer of that name.
     pub fn from_name(name: &str) -> Option<NamedReference> {
-        Self::ALL
-            .into_iter()
-            .find(|reference| reference.name() == name)
+        Self::ALL.into_iter().find(|reference| reference.name() == name)
     }
 
     /// The name nearest to one that is misspelt, if it is near enough to be meant.
@@ -54,9 +52,6 @@ mod tests {
             assert!(!reference.description().contains('\n'));
         }
         assert_eq!(NamedReference::from_name("hertz"), None);
-        assert_eq!(
-            NamedReference::nearest("archard_prescribed"),
-            Some("archard-prescribed")
-        );
+        assert_eq!(NamedReference::nearest("archard_prescribed"), Some("archard-prescribed"));
     }
 }

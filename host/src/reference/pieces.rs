@@ -37,11 +37,7 @@ pub fn pieces_from_slip(
         let (a, b) = (slip(k), slip(k + 1));
         let path = (b[0] - a[0]).hypot(b[1] - a[1]).hypot(b[2] - a[2]);
         let speed = path / (time[1] - time[0]);
-        Piece {
-            time,
-            pressure: [pressure(k), pressure(k + 1)],
-            velocity: [speed; 2],
-        }
+        Piece { time, pressure: [pressure(k), pressure(k + 1)], velocity: [speed; 2] }
     })
 }
 
@@ -78,11 +74,7 @@ mod tests {
         let times = [0.0, 2.0, 2.0, 3.0];
         let pressure = [1.0, 2.0, 5.0, 6.0];
         let by_velocity = pieces_from_velocity(&times, |k| pressure[k], |k| -pressure[k]);
-        let last = Piece {
-            time: [2.0, 3.0],
-            pressure: [5.0, 6.0],
-            velocity: [-5.0, -6.0],
-        };
+        let last = Piece { time: [2.0, 3.0], pressure: [5.0, 6.0], velocity: [-5.0, -6.0] };
         assert_eq!(by_velocity.len(), 2);
         assert_eq!(by_velocity[1], last);
         let slip = [[0.0; 3], [-3.0, 4.0, 0.0], [0.0; 3], [0.0, 0.0, 2.0]];
@@ -90,11 +82,7 @@ mod tests {
         assert_eq!(by_slip[0].velocity, [2.5; 2]);
         assert_eq!(by_slip[1].velocity, [2.0; 2], "counted anew after the jump");
         let short = until(&by_velocity, 0.5);
-        let first = Piece {
-            time: [0.0, 0.5],
-            pressure: [1.0, 1.25],
-            velocity: [-1.0, -1.25],
-        };
+        let first = Piece { time: [0.0, 0.5], pressure: [1.0, 1.25], velocity: [-1.0, -1.25] };
         assert_eq!(short, [first]);
         assert_eq!(until(&by_velocity, 9.0), by_velocity);
     }

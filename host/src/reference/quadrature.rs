@@ -22,11 +22,7 @@ pub fn tanh_sinh(length: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let far = length - near;
         let (left, right) = if a < 0.0 { (near, far) } else { (far, near) };
         let weight = FRAC_PI_2 * u.cosh() * 2.0 * near * (far / length);
-        if near > 0.0 {
-            f(left, right) * weight
-        } else {
-            0.0
-        }
+        if near > 0.0 { f(left, right) * weight } else { 0.0 }
     };
     // Weights at u = 6.1 are below the smallest double times any usual value of f.
     let limit = 6.1;
@@ -65,11 +61,7 @@ impl Compensated {
     /// Adds a term.
     pub fn add(&mut self, term: f64) {
         let sum = self.sum + term;
-        self.lost += if self.sum.abs() >= term.abs() {
-            (self.sum - sum) + term
-        } else {
-            (term - sum) + self.sum
-        };
+        self.lost += if self.sum.abs() >= term.abs() { (self.sum - sum) + term } else { (term - sum) + self.sum };
         self.sum = sum;
     }
 
@@ -97,9 +89,7 @@ mod tests {
     #[test]
     fn a_small_term_beside_large_ones_is_kept() {
         let mut sum = Compensated::default();
-        [1e16, 1.0, -1e16]
-            .into_iter()
-            .for_each(|term| sum.add(term));
+        [1e16, 1.0, -1e16].into_iter().for_each(|term| sum.add(term));
         assert_eq!(sum.value(), 1.0);
     }
 }

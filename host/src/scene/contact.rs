@@ -22,11 +22,8 @@ pub enum ModelKind {
 }
 
 impl Word for ModelKind {
-    const ALL: &'static [(&'static str, Self)] = &[
-        ("prescribed", Self::Prescribed),
-        ("foundation", Self::Foundation),
-        ("halfspace", Self::HalfSpace),
-    ];
+    const ALL: &'static [(&'static str, Self)] =
+        &[("prescribed", Self::Prescribed), ("foundation", Self::Foundation), ("halfspace", Self::HalfSpace)];
 }
 
 impl fmt::Display for ModelKind {
@@ -132,8 +129,7 @@ pub enum Boundary {
 }
 
 impl Word for Boundary {
-    const ALL: &'static [(&'static str, Self)] =
-        &[("free", Self::Free), ("periodic", Self::Periodic)];
+    const ALL: &'static [(&'static str, Self)] = &[("free", Self::Free), ("periodic", Self::Periodic)];
 }
 
 impl Model {
@@ -155,11 +151,9 @@ impl Elasticity {
     pub fn modulus(&self) -> f64 {
         match self {
             Self::Modulus(modulus) => *modulus,
-            Self::Bodies(bodies) => bodies
-                .iter()
-                .map(|body| (1.0 - body.poisson * body.poisson) / body.young)
-                .sum::<f64>()
-                .recip(),
+            Self::Bodies(bodies) => {
+                bodies.iter().map(|body| (1.0 - body.poisson * body.poisson) / body.young).sum::<f64>().recip()
+            }
         }
     }
 }
@@ -190,50 +184,26 @@ impl Contact {
             },
         };
         section.keys(KEYS, kind)?;
-        let dimension = section
-            .get("dimension")
-            .map(|item| item.count(2, 3))
-            .transpose()?
-            .unwrap_or(3);
-        let tolerance = section
-            .get("tolerance")
-            .map(|item| item.number(Bound::Between(0.0, 1.0)))
-            .transpose()?;
+        let dimension = section.get("dimension").map(|item| item.count(2, 3)).transpose()?.unwrap_or(3);
+        let tolerance = section.get("tolerance").map(|item| item.number(Bound::Between(0.0, 1.0))).transpose()?;
         let tolerance = tolerance.unwrap_or(Model::TOLERANCE);
         let model = match kind {
-            ModelKind::Prescribed => Model::Prescribed(Prescribed {
-                history: section.get("history").map(|item| item.path()).transpose()?,
-            }),
+            ModelKind::Prescribed => {
+                Model::Prescribed(Prescribed { history: section.get("history").map(|item| item.path()).transpose()? })
+            }
             ModelKind::Foundation => {
                 let stiffness = section.need("stiffness")?.number(Bound::Above(0.0))?;
-                Model::Foundation(Foundation {
-                    stiffness,
-                    tolerance,
-                })
+                Model::Foundation(Foundation { stiffness, tolerance })
             }
             ModelKind::HalfSpace => Model::HalfSpace(HalfSpace {
                 elasticity: Elasticity::read(section)?,
-                boundary: section
-                    .get("boundary")
-                    .map(|item| item.word())
-                    .transpose()?
-                    .unwrap_or_default(),
+                boundary: section.get("boundary").map(|item| item.word()).transpose()?.unwrap_or_default(),
                 tolerance,
-                datum: section
-                    .get("datum")
-                    .map(|item| item.number(Bound::Above(0.0)))
-                    .transpose()?,
+                datum: section.get("datum").map(|item| item.number(Bound::Above(0.0))).transpose()?,
             }),
         };
-        let friction = section
-            .get("friction")
-            .map(|item| item.number(Bound::AtLeast(0.0)))
-            .transpose()?;
-        Ok(Self {
-            model,
-            dimension: dimension as u8,
-            friction,
-        })
+        let friction = section.get("friction").map(|item| item.number(Bound::AtLeast(0.0))).transpose()?;
+        Ok(Self { model, dimension: dimension as u8, friction })
     }
 }
 
@@ -256,9 +226,6 @@ impl Elasticity {
             let poisson = section.need("nu")?.number(Bound::AboveUpTo(-1.0, 0.5))?;
             Ok(Body { young, poisson })
         };
-        Ok(Self::Bodies([
-            body(first.section()?)?,
-            body(second.section()?)?,
-        ]))
+        Ok(Self::Bodies([body(first.section()?)?, body(second.section()?)?]))
     }
 }

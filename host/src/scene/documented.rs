@@ -38,12 +38,7 @@ impl Controls {
     /// Defaults: contact pressure, no averaging, the geometry moves, opposite to the contact normal.
     pub fn same_meaning(&self, other: &Controls) -> bool {
         let meaning = |c: &Controls| {
-            (
-                c.basis.unwrap_or(Basis::Pressure),
-                c.average.unwrap_or(false),
-                c.mode.unwrap_or(Mode::Apply),
-                c.direction,
-            )
+            (c.basis.unwrap_or(Basis::Pressure), c.average.unwrap_or(false), c.mode.unwrap_or(Mode::Apply), c.direction)
         };
         meaning(self) == meaning(other)
     }
@@ -60,9 +55,7 @@ pub enum ControlsError {
         value: f64,
     },
     /// C6, C7 and C8 are given and all zero.
-    #[error(
-        "the wear direction C6, C7, C8 is zero: expected direction cosines, or nothing for the default"
-    )]
+    #[error("the wear direction C6, C7, C8 is zero: expected direction cosines, or nothing for the default")]
     ZeroDirection,
     /// A direction cosine is NaN or infinite.
     #[error("C{position} = {value} is not finite: expected a direction cosine")]
@@ -107,10 +100,7 @@ pub fn controls(c: &[Option<f64>]) -> Result<Controls, ControlsError> {
     if cosines.iter().any(Option::is_some) {
         let given = cosines.map(Option::unwrap_or_default);
         if let Some(axis) = given.iter().position(|x| !x.is_finite()) {
-            return Err(ControlsError::NotFinite {
-                position: 6 + axis,
-                value: given[axis],
-            });
+            return Err(ControlsError::NotFinite { position: 6 + axis, value: given[axis] });
         }
         let direction = unit(given).ok_or(ControlsError::ZeroDirection)?;
         controls.direction = Some(direction);
@@ -156,18 +146,9 @@ mod tests {
     #[test]
     fn the_flag_states_what_the_page_says() {
         let stated = |c: Controls| (c.basis, c.average, c.mode);
-        assert_eq!(
-            stated(flag(1.0)),
-            (Some(Basis::NodalStress), Some(false), None)
-        );
-        assert_eq!(
-            stated(flag(10.0)),
-            (Some(Basis::Pressure), Some(true), None)
-        );
-        assert_eq!(
-            stated(flag(11.0)),
-            (Some(Basis::NodalStress), Some(true), None)
-        );
+        assert_eq!(stated(flag(1.0)), (Some(Basis::NodalStress), Some(false), None));
+        assert_eq!(stated(flag(10.0)), (Some(Basis::Pressure), Some(true), None));
+        assert_eq!(stated(flag(11.0)), (Some(Basis::NodalStress), Some(true), None));
         assert_eq!(stated(flag(-99.0)), (None, None, Some(Mode::Post)));
         assert_eq!(flag(0.0), Controls::default());
         assert_eq!(controls(&[]).unwrap(), Controls::default());
@@ -182,10 +163,7 @@ mod tests {
         }
         let nan = controls(&[None, None, None, None, Some(f64::NAN)]);
         assert!(matches!(nan, Err(ControlsError::UndocumentedFlag { .. })));
-        assert_eq!(
-            controls(&[None; 9]),
-            Err(ControlsError::TooMany { count: 9 })
-        );
+        assert_eq!(controls(&[None; 9]), Err(ControlsError::TooMany { count: 9 }));
     }
 
     #[test]
@@ -212,14 +190,8 @@ mod tests {
 
     #[test]
     fn no_direction_in_the_cosines_is_an_error() {
-        assert_eq!(
-            direction([Some(0.0), None, Some(-0.0)]),
-            Err(ControlsError::ZeroDirection)
-        );
-        assert!(matches!(
-            direction([None, Some(f64::NAN), None]),
-            Err(ControlsError::NotFinite { position: 7, .. })
-        ));
+        assert_eq!(direction([Some(0.0), None, Some(-0.0)]), Err(ControlsError::ZeroDirection));
+        assert!(matches!(direction([None, Some(f64::NAN), None]), Err(ControlsError::NotFinite { position: 7, .. })));
     }
 
     #[test]

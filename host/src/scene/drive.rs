@@ -50,42 +50,24 @@ pub enum Field {
 }
 
 impl Drive {
-    pub(super) fn read(
-        section: &Section<'_>,
-        model: ModelKind,
-        history: bool,
-    ) -> Result<Option<Self>, SceneError> {
+    pub(super) fn read(section: &Section<'_>, model: ModelKind, history: bool) -> Result<Option<Self>, SceneError> {
         section.at_most_one(&["load", "approach"])?;
         if let Some(item) = section.get("load") {
-            return item
-                .number(Bound::AtLeast(0.0))
-                .map(|load| Some(Self::Load(load)));
+            return item.number(Bound::AtLeast(0.0)).map(|load| Some(Self::Load(load)));
         }
         if let Some(item) = section.get("approach") {
-            return item
-                .number(Bound::Finite)
-                .map(|approach| Some(Self::Approach(approach)));
+            return item.number(Bound::Finite).map(|approach| Some(Self::Approach(approach)));
         }
         if let Some(item) = section.get("pressure") {
             if history {
                 let first = "contact.history".to_owned();
-                return Err(section.error(
-                    "pressure",
-                    Problem::Both {
-                        first,
-                        second: item.path,
-                    },
-                ));
+                return Err(section.error("pressure", Problem::Both { first, second: item.path }));
             }
-            return item
-                .number(Bound::AtLeast(0.0))
-                .map(|pressure| Some(Self::Pressure(pressure)));
+            return item.number(Bound::AtLeast(0.0)).map(|pressure| Some(Self::Pressure(pressure)));
         }
         match model {
             ModelKind::Prescribed if history => Ok(None),
-            ModelKind::Prescribed => {
-                Err(section.missing("pressure", "because there is no `contact.history`"))
-            }
+            ModelKind::Prescribed => Err(section.missing("pressure", "because there is no `contact.history`")),
             _ => Err(section.missing("load` or `approach", "to press the bodies together")),
         }
     }
@@ -98,32 +80,18 @@ impl Sliding {
         if let Some(item) = section.get("velocity") {
             let velocity = match item.number(Bound::Finite) {
                 Ok(velocity) => Field::Uniform(velocity),
-                Err(error) if matches!(*error.problem, Problem::WrongType { .. }) => {
-                    match item.text() {
-                        Ok(_) => Field::File(item.path()?),
-                        Err(_) => return Err(item.wrong("a number or the path of a file")),
-                    }
-                }
+                Err(error) if matches!(*error.problem, Problem::WrongType { .. }) => match item.text() {
+                    Ok(_) => Field::File(item.path()?),
+                    Err(_) => return Err(item.wrong("a number or the path of a file")),
+                },
                 Err(error) => return Err(error),
             };
             return Ok(Some(Self::Velocity { velocity }));
         }
         match (section.get("stroke"), section.get("frequency")) {
             (None, None) => Ok(None),
-            (Some(item), None) => Err(section.error(
-                "stroke",
-                Problem::Alone {
-                    key: item.path,
-                    partner: "frequency",
-                },
-            )),
-            (None, Some(item)) => Err(section.error(
-                "frequency",
-                Problem::Alone {
-                    key: item.path,
-                    partner: "stroke",
-                },
-            )),
+            (Some(item), None) => Err(section.error("stroke", Problem::Alone { key: item.path, partner: "frequency" })),
+            (None, Some(item)) => Err(section.error("frequency", Problem::Alone { key: item.path, partner: "stroke" })),
             (Some(stroke), Some(frequency)) => Ok(Some(Self::Stroke {
                 stroke: stroke.number(Bound::AtLeast(0.0))?,
                 frequency: frequency.number(Bound::AtLeast(0.0))?,

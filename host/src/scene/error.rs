@@ -45,10 +45,7 @@ pub enum Problem {
         valid: Vec<String>,
     },
     /// A key of another contact model.
-    #[error(
-        "found `{key}` in a scene with contact.model = \"{model}\", expected it only with {}",
-        List(models)
-    )]
+    #[error("found `{key}` in a scene with contact.model = \"{model}\", expected it only with {}", List(models))]
     OtherModel {
         /// The key.
         key: String,
@@ -58,10 +55,7 @@ pub enum Problem {
         models: Vec<ModelKind>,
     },
     /// A key of another surface shape or kind of entry.
-    #[error(
-        "found `{key}` where {setting} = \"{found}\", expected it only with {}",
-        List(expected)
-    )]
+    #[error("found `{key}` where {setting} = \"{found}\", expected it only with {}", List(expected))]
     OtherSetting {
         /// The key.
         key: String,
@@ -200,10 +194,7 @@ pub enum Problem {
         sum: f64,
     },
     /// A digest that is not one.
-    #[error(
-        "found {length} characters{} for `{key}`, expected 64 hexadecimal digits",
-        Stranger(stranger)
-    )]
+    #[error("found {length} characters{} for `{key}`, expected 64 hexadecimal digits", Stranger(stranger))]
     Digest {
         /// The key.
         key: String,
@@ -213,9 +204,7 @@ pub enum Problem {
         stranger: Option<char>,
     },
     /// A direction of no length.
-    #[error(
-        "found a direction of length {length:?} for `{key}`, expected one that points somewhere"
-    )]
+    #[error("found a direction of length {length:?} for `{key}`, expected one that points somewhere")]
     NoDirection {
         /// The key.
         key: String,
@@ -223,9 +212,7 @@ pub enum Problem {
         length: f64,
     },
     /// A direction that leaves the plane of a 2-D scene.
-    #[error(
-        "found a y component of {y:?} for `{key}` in a scene with contact.dimension = 2, expected [x, z]"
-    )]
+    #[error("found a y component of {y:?} for `{key}` in a scene with contact.dimension = 2, expected [x, z]")]
     LeavesPlane {
         /// The key.
         key: String,
@@ -243,9 +230,7 @@ pub enum Problem {
         before: f64,
     },
     /// A row of a table that says neither when nor how warm.
-    #[error(
-        "found a row of `law.table` with neither `time` nor `temperature`, expected one of them or both"
-    )]
+    #[error("found a row of `law.table` with neither `time` nor `temperature`, expected one of them or both")]
     RowWithoutPoint,
     /// Rows of a table with different axes.
     #[error("found a row of `law.table` with {found}, expected {expected} as in the first row")]
@@ -264,10 +249,7 @@ pub enum Problem {
         expected: RowShape,
     },
     /// Two rows for one point.
-    #[error(
-        "found a second row of `law.table` at {}, expected one row a point",
-        Point(time, temperature)
-    )]
+    #[error("found a second row of `law.table` at {}, expected one row a point", Point(time, temperature))]
     RowRepeated {
         /// Its time.
         time: Option<f64>,
@@ -295,9 +277,7 @@ pub enum Problem {
         quantity: String,
     },
     /// A ramp from a step that does not give the quantity.
-    #[error(
-        "found `{quantity}` in `{key}`, expected `{before}` to give it too, because a ramp starts from there"
-    )]
+    #[error("found `{quantity}` in `{key}`, expected `{before}` to give it too, because a ramp starts from there")]
     RampWithoutStart {
         /// The key.
         key: String,
@@ -313,9 +293,7 @@ pub enum Problem {
         text: String,
     },
     /// An override of an entry that does not exist.
-    #[error(
-        "found entry {index} of `{list}`, which has {count} (counted from 0), expected one that the scene has"
-    )]
+    #[error("found entry {index} of `{list}`, which has {count} (counted from 0), expected one that the scene has")]
     NoSuchEntry {
         /// The list.
         list: String,
@@ -325,9 +303,7 @@ pub enum Problem {
         count: usize,
     },
     /// An override of a list where an entry is meant.
-    #[error(
-        "found `{key}` of the list `{list}`, expected the number of an entry first, as in {list}.0.{key}"
-    )]
+    #[error("found `{key}` of the list `{list}`, expected the number of an entry first, as in {list}.0.{key}")]
     EntryNeeded {
         /// The list.
         list: String,

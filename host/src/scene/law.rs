@@ -34,10 +34,7 @@ pub enum Mode {
 }
 
 impl Word for Basis {
-    const ALL: &'static [(&'static str, Self)] = &[
-        ("pressure", Self::Pressure),
-        ("nodal-stress", Self::NodalStress),
-    ];
+    const ALL: &'static [(&'static str, Self)] = &[("pressure", Self::Pressure), ("nodal-stress", Self::NodalStress)];
 }
 
 impl Word for Mode {
@@ -113,53 +110,26 @@ impl Law {
             ],
             model,
         )?;
-        let plugin = section
-            .need("use")?
-            .name("the name of a law or the path of a library or source")?;
+        let plugin = section.need("use")?.name("the name of a law or the path of a library or source")?;
         section.at_most_one(&["constants", "table", "apdl"])?;
         if let Some(material) = section.get("material")
             && section.get("apdl").is_none()
         {
-            return Err(section.error(
-                "material",
-                Problem::Alone {
-                    key: material.path,
-                    partner: "law.apdl",
-                },
-            ));
+            return Err(section.error("material", Problem::Alone { key: material.path, partner: "law.apdl" }));
         }
         Ok(Self {
             plugin,
-            constants: section
-                .get("constants")
-                .map(|item| Constants::read(&item))
-                .transpose()?,
+            constants: section.get("constants").map(|item| Constants::read(&item)).transpose()?,
             apdl: section.get("apdl").map(|item| item.path()).transpose()?,
-            material: section
-                .get("material")
-                .map(|item| item.count(1, u64::from(u32::MAX)))
-                .transpose()?,
+            material: section.get("material").map(|item| item.count(1, u64::from(u32::MAX))).transpose()?,
             basis: section.get("basis").map(|item| item.word()).transpose()?,
-            average: section
-                .get("average")
-                .map(|item| item.boolean())
-                .transpose()?,
+            average: section.get("average").map(|item| item.boolean()).transpose()?,
             mode: section.get("mode").map(|item| item.word()).transpose()?,
-            direction: section
-                .get("direction")
-                .map(|item| direction(&item, dimension))
-                .transpose()?,
+            direction: section.get("direction").map(|item| direction(&item, dimension)).transpose()?,
             share: section.get("share").map(|item| share(&item)).transpose()?,
-            sha256: section
-                .get("sha256")
-                .map(|item| digest(&item))
-                .transpose()?,
+            sha256: section.get("sha256").map(|item| digest(&item)).transpose()?,
             options: section.get("options").map(|item| item.text()).transpose()?,
-            table: section
-                .get("table")
-                .map(|item| read_table(&item, model, units))
-                .transpose()?
-                .unwrap_or_default(),
+            table: section.get("table").map(|item| read_table(&item, model, units)).transpose()?.unwrap_or_default(),
         })
     }
 }
@@ -171,24 +141,16 @@ fn direction(item: &Item<'_>, dimension: u8) -> Result<[f64; 3], SceneError> {
         (&[x, z], 2) => [x, 0.0, z],
         (&[x, y, z], 2) if y == 0.0 => [x, y, z],
         (&[_, y, _], 2) => {
-            return Err(item.error(Problem::LeavesPlane {
-                key: item.path.clone(),
-                y,
-            }));
+            return Err(item.error(Problem::LeavesPlane { key: item.path.clone(), y }));
         }
         (&[x, y, z], _) => [x, y, z],
         (_, 2) => return Err(item.length(given.len(), 2, "in a scene with contact.dimension = 2")),
         _ => return Err(item.length(given.len(), 3, "in a scene with contact.dimension = 3")),
     };
     // The largest component first: the sum of squares of tiny or huge components would not be representable.
-    let length = direction
-        .iter()
-        .fold(0.0_f64, |most, component| most.max(component.abs()));
+    let length = direction.iter().fold(0.0_f64, |most, component| most.max(component.abs()));
     if length == 0.0 {
-        return Err(item.error(Problem::NoDirection {
-            key: item.path.clone(),
-            length,
-        }));
+        return Err(item.error(Problem::NoDirection { key: item.path.clone(), length }));
     }
     Ok(direction)
 }
@@ -201,26 +163,17 @@ fn share(item: &Item<'_>) -> Result<[f64; 2], SceneError> {
     // Decimal shares such as 0.1 and 0.9 sum to 1 only up to rounding.
     let sum = body + counterbody;
     if (sum - 1.0).abs() > 1e-9 {
-        return Err(item.error(Problem::ShareSum {
-            key: item.path.clone(),
-            sum,
-        }));
+        return Err(item.error(Problem::ShareSum { key: item.path.clone(), sum }));
     }
     Ok([body, counterbody])
 }
 
 fn digest(item: &Item<'_>) -> Result<String, SceneError> {
     let text = item.text()?;
-    let stranger = text
-        .chars()
-        .find(|character| !character.is_ascii_hexdigit());
+    let stranger = text.chars().find(|character| !character.is_ascii_hexdigit());
     let length = text.chars().count();
     if length != 64 || stranger.is_some() {
-        return Err(item.error(Problem::Digest {
-            key: item.path.clone(),
-            length,
-            stranger,
-        }));
+        return Err(item.error(Problem::Digest { key: item.path.clone(), length, stranger }));
     }
     Ok(text.to_ascii_lowercase())
 }

@@ -93,28 +93,11 @@ struct Setting<'a> {
 impl Loading {
     /// Reads the loading in written order. A step written after a cycle becomes a cycle of one, so that the order is
     /// steps first, cycles after, and survives formats that keep no order between keys.
-    pub(super) fn read(
-        root: &Section<'_>,
-        contact: &Contact,
-        units: &Units,
-    ) -> Result<Self, SceneError> {
-        let history =
-            matches!(&contact.model, Model::Prescribed(prescribed) if prescribed.history.is_some());
-        let setting = Setting {
-            model: contact.model.kind(),
-            history,
-            units,
-        };
-        let steps = root
-            .get("step")
-            .map(|item| item.list("load steps, [[step]]"))
-            .transpose()?
-            .unwrap_or_default();
-        let cycles = root
-            .get("cycle")
-            .map(|item| item.list("cycles, [[cycle]]"))
-            .transpose()?
-            .unwrap_or_default();
+    pub(super) fn read(root: &Section<'_>, contact: &Contact, units: &Units) -> Result<Self, SceneError> {
+        let history = matches!(&contact.model, Model::Prescribed(prescribed) if prescribed.history.is_some());
+        let setting = Setting { model: contact.model.kind(), history, units };
+        let steps = root.get("step").map(|item| item.list("load steps, [[step]]")).transpose()?.unwrap_or_default();
+        let cycles = root.get("cycle").map(|item| item.list("cycles, [[cycle]]")).transpose()?.unwrap_or_default();
         if steps.is_empty() && cycles.is_empty() && !history {
             let reason = match setting.model {
                 ModelKind::Prescribed => "because there is no `contact.history` that says what happens",
@@ -122,38 +105,21 @@ impl Loading {
             };
             return Err(root.missing("step", reason));
         }
-        let mut loading = Self {
-            steps: Vec::new(),
-            cycles: Vec::new(),
-            moved: Vec::new(),
-        };
+        let mut loading = Self { steps: Vec::new(), cycles: Vec::new(), moved: Vec::new() };
         // Whole lists from an override have no place in the file: steps come first then, cycles last.
         let place = |item: &Item<'_>, other| {
-            if item.node.place.text == 0 {
-                item.node.place.span.start
-            } else {
-                other
-            }
+            if item.node.place.text == 0 { item.node.place.span.start } else { other }
         };
-        let mut blocks: Vec<(usize, bool, &Item<'_>)> = steps
-            .iter()
-            .map(|item| (place(item, 0), false, item))
-            .collect();
-        blocks.extend(
-            cycles
-                .iter()
-                .map(|item| (place(item, usize::MAX), true, item)),
-        );
+        let mut blocks: Vec<(usize, bool, &Item<'_>)> =
+            steps.iter().map(|item| (place(item, 0), false, item)).collect();
+        blocks.extend(cycles.iter().map(|item| (place(item, usize::MAX), true, item)));
         blocks.sort_by_key(|(start, _, _)| *start);
         let mut before: Option<(String, Step)> = None;
         let last = blocks.len().saturating_sub(1);
         for (index, (_, is_cycle, item)) in blocks.into_iter().enumerate() {
             if is_cycle {
                 let cycle = Cycle::read(item, &setting, &mut before)?;
-                loading.moved.push((
-                    item.path.clone(),
-                    join("cycle", &loading.cycles.len().to_string()),
-                ));
+                loading.moved.push((item.path.clone(), join("cycle", &loading.cycles.len().to_string())));
                 loading.cycles.push(cycle);
                 continue;
             }
@@ -164,14 +130,8 @@ impl Loading {
             if loading.cycles.is_empty() {
                 loading.steps.push(step);
             } else {
-                loading.moved.push((
-                    item.path.clone(),
-                    format!("cycle.{}.step.0", loading.cycles.len()),
-                ));
-                loading.cycles.push(Cycle {
-                    count: 1,
-                    steps: vec![step],
-                });
+                loading.moved.push((item.path.clone(), format!("cycle.{}.step.0", loading.cycles.len())));
+                loading.cycles.push(Cycle { count: 1, steps: vec![step] });
             }
         }
         Ok(loading)
@@ -179,26 +139,16 @@ impl Loading {
 }
 
 impl Cycle {
-    fn read(
-        item: &Item<'_>,
-        setting: &Setting<'_>,
-        before: &mut Option<(String, Step)>,
-    ) -> Result<Self, SceneError> {
+    fn read(item: &Item<'_>, setting: &Setting<'_>, before: &mut Option<(String, Step)>) -> Result<Self, SceneError> {
         let section = item.section()?;
         section.keys(&[("count", &[]), ("step", &[])], setting.model)?;
         let count = section.need("count")?.count(1, LARGEST_COUNT)?;
-        let items = section
-            .get("step")
-            .map(|item| item.list("load steps, [[cycle.step]]"))
-            .transpose()?
-            .unwrap_or_default();
+        let items =
+            section.get("step").map(|item| item.list("load steps, [[cycle.step]]")).transpose()?.unwrap_or_default();
         if items.is_empty() && !setting.history {
             return Err(section.missing("step", "because nothing else says what repeats"));
         }
-        let steps = items
-            .iter()
-            .map(|item| Step::read(item, setting, false))
-            .collect::<Result<Vec<_>, _>>()?;
+        let steps = items.iter().map(|item| Step::read(item, setting, false)).collect::<Result<Vec<_>, _>>()?;
         for (index, (item, step)) in items.iter().zip(&steps).enumerate() {
             step.check_ramp(item, before.as_ref())?;
             // The first step of a cycle also comes after the last one.
@@ -243,24 +193,11 @@ impl Step {
             duration,
             drive: Drive::read(&section, setting.model, setting.history)?,
             sliding: Sliding::read(&section)?,
-            stick: section
-                .get("stick")
-                .map(|item| item.number(Bound::AtLeast(0.0)))
-                .transpose()?,
-            temperature: section
-                .get("temperature")
-                .map(|item| item.number(temperatures))
-                .transpose()?,
-            friction: section
-                .get("friction")
-                .map(|item| item.number(Bound::AtLeast(0.0)))
-                .transpose()?,
+            stick: section.get("stick").map(|item| item.number(Bound::AtLeast(0.0))).transpose()?,
+            temperature: section.get("temperature").map(|item| item.number(temperatures)).transpose()?,
+            friction: section.get("friction").map(|item| item.number(Bound::AtLeast(0.0))).transpose()?,
             ramp: match section.get("ramp") {
-                Some(item) => item
-                    .list("a list of keys")?
-                    .iter()
-                    .map(Item::word)
-                    .collect::<Result<_, _>>()?,
+                Some(item) => item.list("a list of keys")?.iter().map(Item::word).collect::<Result<_, _>>()?,
                 None => Vec::new(),
             },
         })
@@ -280,31 +217,17 @@ impl Step {
     }
 
     /// A ramp needs both its ends: this step and, unless it is the first, the step before give the quantity.
-    fn check_ramp(
-        &self,
-        item: &Item<'_>,
-        before: Option<&(String, Self)>,
-    ) -> Result<(), SceneError> {
+    fn check_ramp(&self, item: &Item<'_>, before: Option<&(String, Self)>) -> Result<(), SceneError> {
         for &quantity in &self.ramp {
             let key = join(&item.path, "ramp");
             let name = quantity.word().to_owned();
             if !self.gives(quantity) {
-                return Err(item.section()?.error(
-                    "ramp",
-                    Problem::RampWithoutEnd {
-                        key,
-                        quantity: name,
-                    },
-                ));
+                return Err(item.section()?.error("ramp", Problem::RampWithoutEnd { key, quantity: name }));
             }
             if let Some((path, step)) = before
                 && !step.gives(quantity)
             {
-                let problem = Problem::RampWithoutStart {
-                    key,
-                    quantity: name,
-                    before: path.clone(),
-                };
+                let problem = Problem::RampWithoutStart { key, quantity: name, before: path.clone() };
                 return Err(item.section()?.error("ramp", problem));
             }
         }

@@ -26,9 +26,7 @@ mod tests;
 
 pub use bound::Bound;
 pub use constants::{Constants, RowShape, TableRow};
-pub use contact::{
-    Body, Boundary, Contact, Elasticity, Foundation, HalfSpace, Model, ModelKind, Prescribed,
-};
+pub use contact::{Body, Boundary, Contact, Elasticity, Foundation, HalfSpace, Model, ModelKind, Prescribed};
 pub use document::Scene;
 pub use drive::{Drive, Field, Sliding};
 pub use error::{Problem, SceneError};

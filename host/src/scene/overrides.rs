@@ -67,42 +67,20 @@ struct Change<'a> {
 
 impl Override {
     pub(super) fn source(&self) -> Arc<Source> {
-        Arc::new(Source {
-            name: format!("--set {}", self.0),
-            text: self.0.clone(),
-            file: false,
-        })
+        Arc::new(Source { name: format!("--set {}", self.0), text: self.0.clone(), file: false })
     }
 
     /// Makes the change; `text` is the number under which the override's own text is known.
-    pub(super) fn apply(
-        &self,
-        root: &mut Node,
-        text: usize,
-        source: &Arc<Source>,
-    ) -> Result<(), SceneError> {
+    pub(super) fn apply(&self, root: &mut Node, text: usize, source: &Arc<Source>) -> Result<(), SceneError> {
         let form = || {
-            let location = Location {
-                source: source.clone(),
-                span: 0..self.0.len(),
-                key: String::new(),
-            };
-            Located::new(
-                Problem::OverrideForm {
-                    text: self.0.clone(),
-                },
-                Some(location),
-            )
+            let location = Location { source: source.clone(), span: 0..self.0.len(), key: String::new() };
+            Located::new(Problem::OverrideForm { text: self.0.clone() }, Some(location))
         };
         let (parts, equals) = split(&self.0).ok_or_else(form)?;
         if self.0[equals + 1..].trim().is_empty() {
             return Err(form());
         }
-        let change = Change {
-            source,
-            text,
-            parts,
-        };
+        let change = Change { source, text, parts };
         let value = change.value(&self.0, equals + 1)?;
         change.put(root, 0, value)
     }
@@ -110,21 +88,12 @@ impl Override {
 
 impl Change<'_> {
     fn error(&self, span: Range<usize>, depth: usize, problem: Problem) -> SceneError {
-        let location = Location {
-            source: self.source.clone(),
-            span,
-            key: self.path(depth + 1),
-        };
+        let location = Location { source: self.source.clone(), span, key: self.path(depth + 1) };
         Located::new(problem, Some(location))
     }
 
     fn path(&self, depth: usize) -> String {
-        self.parts
-            .iter()
-            .take(depth)
-            .map(|part| part.name.as_str())
-            .collect::<Vec<_>>()
-            .join(".")
+        self.parts.iter().take(depth).map(|part| part.name.as_str()).collect::<Vec<_>>().join(".")
     }
 
     /// The value as TOML. What cannot be meant as anything else is a string: it does not begin like a TOML string, list
@@ -132,38 +101,25 @@ impl Change<'_> {
     fn value(&self, text: &str, start: usize) -> Result<Node, SceneError> {
         let shift = start + text[start..].len() - text[start..].trim_start().len();
         let written = text[start..].trim();
-        let place = Place {
-            text: self.text,
-            span: shift..shift + written.len(),
-        };
+        let place = Place { text: self.text, span: shift..shift + written.len() };
         match DeValue::parse(written) {
             Ok(value) => {
                 let node = Node::from_toml(&value, self.text, shift);
                 Ok(Node { place, ..node })
             }
             Err(error) if written.starts_with(['"', '\'', '[', '{']) => {
-                let span = error
-                    .span()
-                    .map_or(place.span, |span| span.start + shift..span.end + shift);
-                let problem = Problem::Syntax {
-                    message: one_line(error.message()),
-                };
+                let span = error.span().map_or(place.span, |span| span.start + shift..span.end + shift);
+                let problem = Problem::Syntax { message: one_line(error.message()) };
                 Err(self.error(span, self.parts.len(), problem))
             }
-            Err(_) => Ok(Node {
-                value: Value::Text(written.to_owned()),
-                place,
-            }),
+            Err(_) => Ok(Node { value: Value::Text(written.to_owned()), place }),
         }
     }
 
     /// Puts `value` under the parts from `depth` on; sections on the way are made, entries of lists are not.
     fn put(&self, node: &mut Node, depth: usize, value: Node) -> Result<(), SceneError> {
         let part = &self.parts[depth];
-        let here = Place {
-            text: self.text,
-            span: part.span.clone(),
-        };
+        let here = Place { text: self.text, span: part.span.clone() };
         let last = depth + 1 == self.parts.len();
         let found = node.describe();
         let next = match &mut node.value {
@@ -172,28 +128,15 @@ impl Change<'_> {
                 let index = match entries.iter().position(|entry| entry.key == part.name) {
                     Some(index) => index,
                     None => {
-                        let empty = Node {
-                            value: Value::Table(Vec::new()),
-                            place: here.clone(),
-                        };
+                        let empty = Node { value: Value::Table(Vec::new()), place: here.clone() };
                         // A number under a key that is not there can only be meant as an entry of a list.
-                        let list = self
-                            .parts
-                            .get(depth + 1)
-                            .is_some_and(|next| next.name.parse::<usize>().is_ok());
+                        let list = self.parts.get(depth + 1).is_some_and(|next| next.name.parse::<usize>().is_ok());
                         let node = if list && !is_constants(self, depth) {
-                            Node {
-                                value: Value::List(Vec::new()),
-                                ..empty
-                            }
+                            Node { value: Value::List(Vec::new()), ..empty }
                         } else {
                             empty
                         };
-                        entries.push(Entry {
-                            key: part.name.clone(),
-                            place: here.clone(),
-                            node,
-                        });
+                        entries.push(Entry { key: part.name.clone(), place: here.clone(), node });
                         entries.len() - 1
                     }
                 };
@@ -205,27 +148,16 @@ impl Change<'_> {
             Value::List(list) => {
                 let count = list.len();
                 let Ok(index) = part.name.parse::<usize>() else {
-                    let problem = Problem::EntryNeeded {
-                        list: self.path(depth),
-                        key: part.name.clone(),
-                    };
+                    let problem = Problem::EntryNeeded { list: self.path(depth), key: part.name.clone() };
                     return Err(self.error(part.span.clone(), depth, problem));
                 };
                 list.get_mut(index).ok_or_else(|| {
-                    let problem = Problem::NoSuchEntry {
-                        list: self.path(depth),
-                        index: part.name.clone(),
-                        count,
-                    };
+                    let problem = Problem::NoSuchEntry { list: self.path(depth), index: part.name.clone(), count };
                     self.error(part.span.clone(), depth, problem)
                 })?
             }
             _ => {
-                let problem = Problem::NotASection {
-                    key: part.name.clone(),
-                    parent: self.path(depth),
-                    found,
-                };
+                let problem = Problem::NotASection { key: part.name.clone(), parent: self.path(depth), found };
                 return Err(self.error(part.span.clone(), depth, problem));
             }
         };
@@ -238,18 +170,14 @@ impl Change<'_> {
 
     /// Removes what the file says under keys that exclude the one at `depth`; other overrides stay, and are judged.
     fn make_room(&self, entries: &mut Vec<Entry>, depth: usize) {
-        let section = self.parts[..depth]
-            .iter()
-            .rev()
-            .find(|part| part.name.parse::<usize>().is_err());
+        let section = self.parts[..depth].iter().rev().find(|part| part.name.parse::<usize>().is_err());
         let Some(section) = section.map(|part| part.name.as_str()) else {
             return;
         };
         let name = self.parts[depth].name.as_str();
         for (place, keys, rivals) in EXCLUSIVE {
             if *place == section && keys.contains(&name) {
-                entries
-                    .retain(|entry| entry.place.text != 0 || !rivals.contains(&entry.key.as_str()));
+                entries.retain(|entry| entry.place.text != 0 || !rivals.contains(&entry.key.as_str()));
             }
         }
     }
@@ -266,10 +194,7 @@ fn split(text: &str) -> Option<(Vec<Part>, usize)> {
     let mut rest = 0;
     loop {
         let start = rest + text[rest..].len() - text[rest..].trim_start().len();
-        let quote = text[start..]
-            .chars()
-            .next()
-            .filter(|first| matches!(first, '"' | '\''));
+        let quote = text[start..].chars().next().filter(|first| matches!(first, '"' | '\''));
         let (span, after) = match quote {
             Some(quote) => {
                 let end = start + 1 + text[start + 1..].find(quote)?;
@@ -286,10 +211,7 @@ fn split(text: &str) -> Option<(Vec<Part>, usize)> {
         if parts.len() == DEEPEST {
             return None;
         }
-        parts.push(Part {
-            name: text[span.clone()].to_owned(),
-            span,
-        });
+        parts.push(Part { name: text[span.clone()].to_owned(), span });
         let next = after + text[after..].find(|character: char| !character.is_whitespace())?;
         match text[next..].chars().next() {
             Some('.') => rest = next + 1,

@@ -39,11 +39,7 @@ pub(super) struct Because<'a>(pub(super) &'a str);
 
 impl fmt::Display for Because<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() {
-            Ok(())
-        } else {
-            write!(f, " {}", self.0)
-        }
+        if self.0.is_empty() { Ok(()) } else { write!(f, " {}", self.0) }
     }
 }
 
@@ -52,9 +48,7 @@ pub(super) struct Stranger<'a>(pub(super) &'a Option<char>);
 
 impl fmt::Display for Stranger<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |stranger| {
-            write!(f, " with {stranger:?} among them")
-        })
+        self.0.map_or(Ok(()), |stranger| write!(f, " with {stranger:?} among them"))
     }
 }
 
@@ -79,11 +73,7 @@ pub(super) struct Most(pub(super) u64);
 
 impl fmt::Display for Most {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 < LARGEST_COUNT {
-            write!(f, " and not above {}", self.0)
-        } else {
-            Ok(())
-        }
+        if self.0 < LARGEST_COUNT { write!(f, " and not above {}", self.0) } else { Ok(()) }
     }
 }
 
@@ -92,11 +82,6 @@ pub(super) struct Entries(pub(super) usize);
 
 impl fmt::Display for Entries {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} {}",
-            self.0,
-            if self.0 == 1 { "entry" } else { "entries" }
-        )
+        write!(f, "{} {}", self.0, if self.0 == 1 { "entry" } else { "entries" })
     }
 }

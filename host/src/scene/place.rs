@@ -63,14 +63,8 @@ impl Location {
     /// The source line underlined below `title`, with `label` beside the line; `color` for terminals.
     pub fn render(&self, title: &str, label: &str, color: bool) -> String {
         let mark = AnnotationKind::Primary.span(self.visible());
-        let mark = if label.is_empty() {
-            mark
-        } else {
-            mark.label(label)
-        };
-        let snippet = Snippet::source(self.source.text.as_str())
-            .path(self.source.name.as_str())
-            .annotation(mark);
+        let mark = if label.is_empty() { mark } else { mark.label(label) };
+        let snippet = Snippet::source(self.source.text.as_str()).path(self.source.name.as_str()).annotation(mark);
         let report = [Level::ERROR.primary_title(title).element(snippet)];
         renderer(color).render(&report)
     }

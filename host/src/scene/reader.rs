@@ -16,10 +16,7 @@ pub(super) trait Word: Copy + 'static {
     where
         Self: PartialEq,
     {
-        Self::ALL
-            .iter()
-            .find(|(_, value)| *value == self)
-            .map_or("", |(word, _)| word)
+        Self::ALL.iter().find(|(_, value)| *value == self).map_or("", |(word, _)| word)
     }
 }
 
@@ -57,12 +54,7 @@ impl<'a> Section<'a> {
             Value::Table(entries) => entries.as_slice(),
             _ => &[],
         };
-        Self {
-            places,
-            path: "",
-            place: &node.place,
-            entries,
-        }
+        Self { places, path: "", place: &node.place, entries }
     }
 
     /// Refuses keys that are unknown here or belong to another model.
@@ -70,11 +62,8 @@ impl<'a> Section<'a> {
         for entry in self.entries {
             let path = join(self.path, &entry.key);
             let Some((_, models)) = keys.iter().find(|(key, _)| *key == entry.key) else {
-                let here: Vec<&str> = keys
-                    .iter()
-                    .filter(|(_, m)| m.is_empty() || m.contains(&model))
-                    .map(|(k, _)| *k)
-                    .collect();
+                let here: Vec<&str> =
+                    keys.iter().filter(|(_, m)| m.is_empty() || m.contains(&model)).map(|(k, _)| *k).collect();
                 let problem = Problem::UnknownKey {
                     key: entry.key.clone(),
                     section: self.named(),
@@ -84,11 +73,7 @@ impl<'a> Section<'a> {
                 return Err(at(self.places, &entry.place, &path, problem));
             };
             if !models.is_empty() && !models.contains(&model) {
-                let problem = Problem::OtherModel {
-                    key: path.clone(),
-                    model,
-                    models: models.to_vec(),
-                };
+                let problem = Problem::OtherModel { key: path.clone(), model, models: models.to_vec() };
                 return Err(at(self.places, &entry.place, &path, problem));
             }
         }
@@ -96,17 +81,9 @@ impl<'a> Section<'a> {
     }
 
     /// Refuses keys that are known but do not go with what `setting` says; `owners` names for each such key what it goes with.
-    pub(super) fn only_with(
-        &self,
-        setting: &str,
-        found: &str,
-        owners: &[(&str, &[&str])],
-    ) -> Result<(), SceneError> {
+    pub(super) fn only_with(&self, setting: &str, found: &str, owners: &[(&str, &[&str])]) -> Result<(), SceneError> {
         for entry in self.entries {
-            let Some((_, with)) = owners
-                .iter()
-                .find(|(key, with)| *key == entry.key && !with.contains(&found))
-            else {
+            let Some((_, with)) = owners.iter().find(|(key, with)| *key == entry.key && !with.contains(&found)) else {
                 continue;
             };
             let problem = Problem::OtherSetting {
@@ -115,28 +92,17 @@ impl<'a> Section<'a> {
                 found: found.to_owned(),
                 expected: with.iter().map(|&word| word.to_owned()).collect(),
             };
-            return Err(at(
-                self.places,
-                &entry.place,
-                &join(self.path, &entry.key),
-                problem,
-            ));
+            return Err(at(self.places, &entry.place, &join(self.path, &entry.key), problem));
         }
         Ok(())
     }
 
     /// Refuses a second key of a set that excludes one another.
     pub(super) fn at_most_one(&self, keys: &[&str]) -> Result<(), SceneError> {
-        let mut given = self
-            .entries
-            .iter()
-            .filter(|entry| keys.contains(&entry.key.as_str()));
+        let mut given = self.entries.iter().filter(|entry| keys.contains(&entry.key.as_str()));
         if let (Some(first), Some(second)) = (given.next(), given.next()) {
             let path = join(self.path, &second.key);
-            let problem = Problem::Both {
-                first: join(self.path, &first.key),
-                second: path.clone(),
-            };
+            let problem = Problem::Both { first: join(self.path, &first.key), second: path.clone() };
             return Err(at(self.places, &second.place, &path, problem));
         }
         Ok(())
@@ -144,12 +110,7 @@ impl<'a> Section<'a> {
 
     pub(super) fn get(&self, key: &str) -> Option<Item<'a>> {
         let entry = self.entries.iter().find(|entry| entry.key == key)?;
-        Some(Item {
-            places: self.places,
-            path: join(self.path, key),
-            header: &entry.place,
-            node: &entry.node,
-        })
+        Some(Item { places: self.places, path: join(self.path, key), header: &entry.place, node: &entry.node })
     }
 
     pub(super) fn need(&self, key: &'static str) -> Result<Item<'a>, SceneError> {
@@ -158,21 +119,13 @@ impl<'a> Section<'a> {
 
     /// The error for a key that is not there, at the header of the section.
     pub(super) fn missing(&self, key: &str, reason: &'static str) -> SceneError {
-        let problem = Problem::Missing {
-            key: key.to_owned(),
-            section: self.named(),
-            reason,
-        };
+        let problem = Problem::Missing { key: key.to_owned(), section: self.named(), reason };
         at(self.places, self.place, self.path, problem)
     }
 
     /// An error at a key of this section, or at its header where the key is not there.
     pub(super) fn error(&self, key: &str, problem: Problem) -> SceneError {
-        let place = self
-            .entries
-            .iter()
-            .find(|entry| entry.key == key)
-            .map_or(self.place, |entry| &entry.place);
+        let place = self.entries.iter().find(|entry| entry.key == key).map_or(self.place, |entry| &entry.place);
         at(self.places, place, &join(self.path, key), problem)
     }
 
@@ -181,24 +134,12 @@ impl<'a> Section<'a> {
         let (places, path) = (self.places, self.path);
         self.entries.iter().map(move |entry| {
             let path = join(path, &entry.key);
-            (
-                entry.key.as_str(),
-                Item {
-                    places,
-                    path,
-                    header: &entry.place,
-                    node: &entry.node,
-                },
-            )
+            (entry.key.as_str(), Item { places, path, header: &entry.place, node: &entry.node })
         })
     }
 
     fn named(&self) -> String {
-        if self.path.is_empty() {
-            "the scene".to_owned()
-        } else {
-            format!("`{}`", self.path)
-        }
+        if self.path.is_empty() { "the scene".to_owned() } else { format!("`{}`", self.path) }
     }
 }
 
@@ -208,21 +149,12 @@ impl<'a> Item<'a> {
     }
 
     pub(super) fn wrong(&self, expected: &'static str) -> SceneError {
-        self.error(Problem::WrongType {
-            key: self.path.clone(),
-            found: self.node.describe(),
-            expected,
-        })
+        self.error(Problem::WrongType { key: self.path.clone(), found: self.node.describe(), expected })
     }
 
     pub(super) fn section(&self) -> Result<Section<'_>, SceneError> {
         match &self.node.value {
-            Value::Table(entries) => Ok(Section {
-                places: self.places,
-                path: &self.path,
-                place: self.header,
-                entries,
-            }),
+            Value::Table(entries) => Ok(Section { places: self.places, path: &self.path, place: self.header, entries }),
             _ => Err(self.wrong("a table")),
         }
     }
@@ -234,17 +166,10 @@ impl<'a> Item<'a> {
             _ => return Err(self.wrong("a number")),
         };
         if !found.is_finite() {
-            return Err(self.error(Problem::NotFinite {
-                key: self.path.clone(),
-                found,
-            }));
+            return Err(self.error(Problem::NotFinite { key: self.path.clone(), found }));
         }
         if !bound.holds(found) {
-            return Err(self.error(Problem::OutOfRange {
-                key: self.path.clone(),
-                found,
-                bound,
-            }));
+            return Err(self.error(Problem::OutOfRange { key: self.path.clone(), found, bound }));
         }
         Ok(found)
     }
@@ -253,19 +178,12 @@ impl<'a> Item<'a> {
     pub(super) fn count(&self, least: u64, most: u64) -> Result<u64, SceneError> {
         let found = match self.node.value {
             Value::Integer(integer) => integer,
-            Value::Float(float) if float.fract() == 0.0 && float.abs() <= LARGEST_COUNT as f64 => {
-                float as i128
-            }
+            Value::Float(float) if float.fract() == 0.0 && float.abs() <= LARGEST_COUNT as f64 => float as i128,
             _ => return Err(self.wrong("a whole number")),
         };
         match u64::try_from(found) {
             Ok(count) if (least..=most).contains(&count) => Ok(count),
-            _ => Err(self.error(Problem::CountOutOfRange {
-                key: self.path.clone(),
-                found,
-                least,
-                most,
-            })),
+            _ => Err(self.error(Problem::CountOutOfRange { key: self.path.clone(), found, least, most })),
         }
     }
 
@@ -288,10 +206,7 @@ impl<'a> Item<'a> {
     pub(super) fn name(&self, expected: &'static str) -> Result<String, SceneError> {
         let text = self.text()?;
         if text.trim().is_empty() {
-            return Err(self.error(Problem::EmptyText {
-                key: self.path.clone(),
-                expected,
-            }));
+            return Err(self.error(Problem::EmptyText { key: self.path.clone(), expected }));
         }
         Ok(text)
     }
@@ -344,20 +259,12 @@ impl<'a> Item<'a> {
     }
 
     pub(super) fn numbers(&self, bound: Bound) -> Result<Vec<f64>, SceneError> {
-        self.list("a list of numbers")?
-            .iter()
-            .map(|item| item.number(bound))
-            .collect()
+        self.list("a list of numbers")?.iter().map(|item| item.number(bound)).collect()
     }
 
     /// The error for a list of `found` entries where `expected` belong.
     pub(super) fn length(&self, found: usize, expected: usize, reason: &'static str) -> SceneError {
-        self.error(Problem::WrongLength {
-            key: self.path.clone(),
-            found,
-            expected,
-            reason,
-        })
+        self.error(Problem::WrongLength { key: self.path.clone(), found, expected, reason })
     }
 }
 
@@ -367,9 +274,7 @@ pub(super) fn nearest(found: &str, words: &[&str]) -> Option<String> {
     words
         .iter()
         .map(|word| (strsim::damerau_levenshtein(&lower, word), *word))
-        .filter(|(distance, word)| {
-            *distance <= 1 + word.chars().count().max(lower.chars().count()) / 3
-        })
+        .filter(|(distance, word)| *distance <= 1 + word.chars().count().max(lower.chars().count()) / 3)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, word)| word.to_owned())
 }

@@ -46,34 +46,21 @@ pub(super) struct Entry {
 impl Node {
     pub(super) fn from_toml(value: &Spanned<DeValue<'_>>, text: usize, shift: usize) -> Self {
         let span = value.span();
-        let place = Place {
-            text,
-            span: span.start + shift..span.end + shift,
-        };
+        let place = Place { text, span: span.start + shift..span.end + shift };
         let value = match value.get_ref() {
             DeValue::String(string) => Value::Text(string.to_string()),
             DeValue::Integer(integer) => integer_value(integer.as_str(), integer.radix()),
             DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(boolean) => Value::Boolean(*boolean),
             DeValue::Datetime(datetime) => Value::Datetime(datetime.to_string()),
-            DeValue::Array(list) => Value::List(
-                list.iter()
-                    .map(|item| Self::from_toml(item, text, shift))
-                    .collect(),
-            ),
+            DeValue::Array(list) => Value::List(list.iter().map(|item| Self::from_toml(item, text, shift)).collect()),
             DeValue::Table(table) => Value::Table(entries(table, text, shift)),
         };
         Self { value, place }
     }
 
     pub(super) fn root(table: &Spanned<DeTable<'_>>) -> Self {
-        Self {
-            value: Value::Table(entries(table.get_ref(), 0, 0)),
-            place: Place {
-                text: 0,
-                span: 0..0,
-            },
-        }
+        Self { value: Value::Table(entries(table.get_ref(), 0, 0)), place: Place { text: 0, span: 0..0 } }
     }
 
     /// What a reader of the file would call this value, for messages.
@@ -98,10 +85,7 @@ fn entries(table: &DeTable<'_>, text: usize, shift: usize) -> Vec<Entry> {
             let span = key.span();
             Entry {
                 key: key.get_ref().to_string(),
-                place: Place {
-                    text,
-                    span: span.start + shift..span.end + shift,
-                },
+                place: Place { text, span: span.start + shift..span.end + shift },
                 node: Node::from_toml(value, text, shift),
             }
         })
@@ -112,10 +96,8 @@ fn entries(table: &DeTable<'_>, text: usize, shift: usize) -> Vec<Entry> {
 
 /// An integer beyond 128 bits is kept as the nearest number, and the range check says what it thinks of it.
 fn integer_value(digits: &str, radix: u32) -> Value {
-    i128::from_str_radix(digits, radix).map_or_else(
-        |_| Value::Float(digits.parse().unwrap_or(f64::INFINITY)),
-        Value::Integer,
-    )
+    i128::from_str_radix(digits, radix)
+        .map_or_else(|_| Value::Float(digits.parse().unwrap_or(f64::INFINITY)), Value::Integer)
 }
 
 /// The texts of a scene and where every key of it was written.
@@ -134,10 +116,7 @@ impl PartialEq for Places {
 
 impl Places {
     pub(super) fn new(texts: Vec<Arc<Source>>) -> Self {
-        Self {
-            texts,
-            keys: BTreeMap::new(),
-        }
+        Self { texts, keys: BTreeMap::new() }
     }
 
     /// Notes the place of a node and of everything below it.
@@ -173,19 +152,12 @@ impl Places {
             });
             target.unwrap_or(key)
         };
-        self.keys = std::mem::take(&mut self.keys)
-            .into_iter()
-            .map(|(key, place)| (renamed(key), place))
-            .collect();
+        self.keys = std::mem::take(&mut self.keys).into_iter().map(|(key, place)| (renamed(key), place)).collect();
     }
 
     pub(super) fn location(&self, place: &Place, key: &str) -> Option<Location> {
         let source = self.texts.get(place.text)?.clone();
-        Some(Location {
-            source,
-            span: place.span.clone(),
-            key: key.to_owned(),
-        })
+        Some(Location { source, span: place.span.clone(), key: key.to_owned() })
     }
 
     pub(super) fn locate(&self, key: &str) -> Option<Location> {
@@ -195,9 +167,5 @@ impl Places {
 
 /// A dotted path one key longer.
 pub(super) fn join(path: &str, key: &str) -> String {
-    if path.is_empty() {
-        key.to_owned()
-    } else {
-        format!("{path}.{key}")
-    }
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
 }

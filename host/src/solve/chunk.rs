@@ -8,11 +8,12 @@ use crate::integrator::substeps::{self, Control, Memory, Substep};
 use crate::integrator::{AdvanceError, Reply, Tally};
 use crate::law::{Batch, Degree, Evaluation, Evaluator, OutputItem, Outputs, PointInputs, Values};
 use crate::plan::{Advance, Sample};
-use crate::solve::inputs::{Drive, Moment, Remembered, Rooms, Site};
+use crate::solve::inputs::Drive;
+use crate::solve::site::{Moment, Remembered, Rooms, Site};
 use crate::solve::source::{value, vector};
 use crate::solve::sums::Sums;
-use crate::solve::{PointError, ShortStep};
 use crate::solve::sweeps::{all_positive, largest};
+use crate::solve::{PointError, ShortStep};
 
 /// Points of one chunk: its columns stay in the second cache while it is integrated. Fixed, so that bits do not
 /// depend on the number of threads.

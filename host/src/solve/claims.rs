@@ -3,7 +3,8 @@
 use crate::integrator::{AdvanceError, Tally};
 use crate::law::{Evaluator, OutputItem, Outputs};
 use crate::solve::PointError;
-use crate::solve::inputs::{Drive, Moment, Remembered, Rooms, Site};
+use crate::solve::inputs::Drive;
+use crate::solve::site::{Moment, Remembered, Rooms, Site};
 use crate::solve::source::value;
 
 /// Points at which the claim is tried.

@@ -4,8 +4,9 @@ use crate::contact::prescribed::{Column, History, PointIds};
 use crate::law::Values;
 use crate::plan::{FieldKind, Plan};
 use crate::record::{self, Field, FieldData, Geometry, Points, Snapshot};
-use crate::solve::inputs::{Drive, Site};
+use crate::solve::inputs::Drive;
 use crate::solve::progress::Arrays;
+use crate::solve::site::Site;
 use crate::solve::source::value;
 
 /// Values of the driving pressure at a fraction of a piece `[points]`.

@@ -3,11 +3,12 @@
 use std::ops::Range;
 
 use crate::contact::prescribed::{Column, History, Motion};
-use crate::law::{Batch, BatchError, CallNumbers, Field, Indices, LawDescriptor, Values};
+use crate::law::{Batch, BatchError, CallNumbers, Field, Indices, Values};
 use crate::plan::{Linear, Plan};
 use crate::scene::Basis;
 use crate::solve::kinematics::{ALONG, UP, contact_state, normal_at, path, speed_of, speeds, tangent};
 use crate::solve::schedule::Piece;
+use crate::solve::site::{Moment, Remembered, Rooms, Site};
 use crate::solve::source::{Rate, Source, map, value, vector, vectors, zip};
 use crate::solve::sweeps::no_sign;
 
@@ -25,49 +26,6 @@ pub(super) struct Drive<'h> {
     coordinates: [Source<'h>; 3],
     inputs: Vec<Source<'h>>,
     motion: Motion,
-}
-
-/// Buffers of one thread.
-#[derive(Default)]
-pub(super) struct Rooms {
-    pressure: Vec<f64>,
-    traction: Vec<f64>,
-    parts: [Vec<f64>; 9],
-    normal: Vec<f64>,
-    tangent: Vec<f64>,
-    velocity: [Vec<f64>; 3],
-    speed: Vec<f64>,
-    slip: Vec<f64>,
-    slip_vector: Vec<f64>,
-    temperature: Vec<f64>,
-    constants: Vec<f64>,
-    shear: Vec<f64>,
-    work: Vec<f64>,
-    stress: Vec<f64>,
-    coefficient: Vec<f64>,
-    area: Vec<f64>,
-    coordinates: Vec<f64>,
-    inputs: Vec<Vec<f64>>,
-    contact: Vec<i64>,
-    ids: Vec<i64>,
-}
-
-/// A moment of a piece at which the law is called for a duration.
-pub(super) struct Moment {
-    /// Fraction of the piece at which the inputs are taken.
-    pub(super) at: f64,
-    /// Fraction of the piece at which the call's time begins.
-    pub(super) from: f64,
-    /// Duration; time.
-    pub(super) dt: f64,
-}
-
-/// What a law remembers, for laws that read it.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Remembered<'m> {
-    pub(super) wear: &'m [f64],
-    pub(super) distance: Values<'m>,
-    pub(super) state: &'m [f64],
 }
 
 impl<'h> Drive<'h> {
@@ -438,23 +396,5 @@ impl<'h> Drive<'h> {
             .collect();
         let batch = builder.inputs(&inputs).build()?;
         call(&batch, &pressure, &normals)
-    }
-}
-
-/// What does not change over a piece, for all of its points.
-#[derive(Clone, Copy)]
-pub(super) struct Site<'s> {
-    pub(super) plan: &'s Plan,
-    pub(super) law: &'s LawDescriptor,
-    pub(super) piece: &'s Piece<'s>,
-    pub(super) history: Option<&'s History>,
-    /// Whether the law is called for whole substeps rather than as a rate.
-    pub(super) whole: bool,
-}
-
-impl Site<'_> {
-    /// Number of a point in the history's numbering.
-    pub(super) fn id(&self, i: usize) -> i64 {
-        self.history.map_or(i as i64, |history| history.point_ids().get(i))
     }
 }

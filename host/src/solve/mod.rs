@@ -14,6 +14,7 @@ mod progress;
 mod reference;
 mod run;
 mod schedule;
+mod site;
 mod source;
 mod sums;
 mod sweeps;

@@ -6,8 +6,9 @@ use crate::integrator::{AdvanceError, Tally};
 use crate::law::Evaluator;
 use crate::solve::PointError;
 use crate::solve::chunk::{self, CHUNK, Done, Scratch, Slices};
+use crate::solve::inputs::Drive;
+use crate::solve::site::Site;
 use crate::solve::sums::Sums;
-use crate::solve::inputs::{Drive, Site};
 use std::time::Duration;
 
 /// The arrays of a run.

@@ -12,7 +12,8 @@ use crate::plan::Plan;
 use crate::reference::Piece as LinearPiece;
 use crate::reference::archard::{self, ArchardConstants, ArchardReferenceError, TablePoint};
 use crate::scene::Basis;
-use crate::solve::inputs::{Drive, Site};
+use crate::solve::inputs::Drive;
+use crate::solve::site::Site;
 use crate::solve::source::value;
 
 /// An error with its norm.

@@ -11,9 +11,10 @@ use crate::plan::{Advance, FieldKind, Plan, ReferencePlan};
 use crate::record::{self, Cost, End, Event, HistoryRow, Line, MemoryLine, Nobody, Observer, Record, Wish};
 use crate::scene::Every;
 use crate::solve::chunk::SCANNED_POINTS;
-use crate::solve::inputs::{Drive, Site};
+use crate::solve::inputs::Drive;
 use crate::solve::progress::Arrays;
 use crate::solve::schedule::{self, Piece};
+use crate::solve::site::Site;
 use crate::solve::sums::Sums;
 use crate::solve::{ErrorNorm, SolveError, claims, compare, fields, reference};
 

@@ -43,10 +43,7 @@ fn main() {
     let measured = std::env::args().any(|a| a == "--bench");
     let (rounds, effort) = if measured { (101, 200_000) } else { (1, 1_000) };
     println!("ns per point, medians of {rounds} interleaved rounds; (K/H) p^m v^n dt");
-    println!(
-        "{:>7} {:>6} {:>6} {:>8} {:>8} {:>8} {:>7}",
-        "points", "m", "n", "what", "libm", "kernel", "ratio"
-    );
+    println!("{:>7} {:>6} {:>6} {:>8} {:>8} {:>8} {:>7}", "points", "m", "n", "what", "libm", "kernel", "ratio");
     for points in [1, 3, 8, 64, POINTS, 1_000_000] {
         if !measured && points > POINTS {
             continue;
@@ -71,21 +68,13 @@ fn main() {
 
 /// Constants of one point each, or one for all.
 fn column(values: &[f64], each: bool) -> Column<'_> {
-    if each {
-        Column::each(values)
-    } else {
-        Column::uniform(&values[0])
-    }
+    if each { Column::each(values) } else { Column::uniform(&values[0]) }
 }
 
 fn row(points: usize, m: f64, n: f64, what: &str, rounds: usize, effort: usize) {
     let mut r = Sequence(7);
-    let p: Vec<f64> = (0..points)
-        .map(|_| 10f64.powf(18.0 * r.next() - 6.0))
-        .collect();
-    let v: Vec<f64> = (0..points)
-        .map(|_| 10f64.powf(12.0 * r.next() - 9.0))
-        .collect();
+    let p: Vec<f64> = (0..points).map(|_| 10f64.powf(18.0 * r.next() - 6.0)).collect();
+    let v: Vec<f64> = (0..points).map(|_| 10f64.powf(12.0 * r.next() - 9.0)).collect();
     let (k, h, dt) = (1e-4, 2e9, 0.1);
     let [ms, ns, ks, hs] = [m, n, k, h].map(|x| vec![x; points]);
     let mut plain = vec![0.0; points];
@@ -112,11 +101,7 @@ fn row(points: usize, m: f64, n: f64, what: &str, rounds: usize, effort: usize) 
                 hardness: column(&hs, each),
                 dt,
             };
-            increments(
-                &inputs,
-                &mut out,
-                (what == "slope").then_some(&mut slope[..]),
-            );
+            increments(&inputs, &mut out, (what == "slope").then_some(&mut slope[..]));
             black_box((&mut out, &mut slope));
         }));
     }
@@ -125,8 +110,5 @@ fn row(points: usize, m: f64, n: f64, what: &str, rounds: usize, effort: usize) 
     }
     let mut ratio: Vec<f64> = libm.iter().zip(&kernel).map(|(a, b)| a / b).collect();
     let (libm, kernel, ratio) = (median(&mut libm), median(&mut kernel), median(&mut ratio));
-    println!(
-        "{points:>7} {m:>6} {n:>6} {what:>8} {libm:>8.2} {kernel:>8.2} {:>7.2}",
-        ratio
-    );
+    println!("{points:>7} {m:>6} {n:>6} {what:>8} {libm:>8.2} {kernel:>8.2} {:>7.2}", ratio);
 }

@@ -21,76 +21,16 @@ fn the_picture_of_an_error() {
 #[test]
 fn tb() {
     let expected = "expected ARCD, USER, AUTS or CBCS";
-    wrong(
-        "TB,WEAR,1,,,BKIN",
-        1,
-        13,
-        "BKIN",
-        &format!("unknown TBOPT `BKIN` of TB,WEAR: {expected}"),
-    );
-    wrong(
-        "TB,WEAR,1",
-        1,
-        1,
-        "TB,WEAR,1",
-        &format!("TB,WEAR without TBOPT: {expected} in its sixth field"),
-    );
-    wrong(
-        "TB WEAR,1,,,ARCD",
-        1,
-        4,
-        "WEAR,1,,,ARCD",
-        "expected `,` after `TB`",
-    );
-    wrong(
-        "TB,WEAR,1.5,,,ARCD",
-        1,
-        9,
-        "1.5",
-        "MATID of TB = 1.5 is not a whole number from 1 to 4294967295",
-    );
-    wrong(
-        "TB,WEAR,0,,,ARCD",
-        1,
-        9,
-        "0",
-        "MATID of TB = 0 is not a whole number from 1 to 4294967295",
-    );
-    wrong(
-        "TB,WEAR,1,,0,USER",
-        1,
-        12,
-        "0",
-        "NPTS of TB = 0 is not a whole number from 1 to 1000",
-    );
-    wrong(
-        "TB,WEAR,1,,1e9,USER",
-        1,
-        12,
-        "1e9",
-        "NPTS of TB = 1000000000 is not a whole number from 1 to 1000",
-    );
-    wrong(
-        "TB,WEAR,1,-1,,ARCD",
-        1,
-        11,
-        "-1",
-        "NTEMP of TB = -1 is not a whole number from 0 to 2147483647",
-    );
-    wrong(
-        "TB,WEAR,cid,,,ARCD",
-        1,
-        9,
-        "cid",
-        "MATID of TB: `cid` is neither a number nor a parameter defined above",
-    );
-    wrong(
-        "TB,WEAR,1,,,ARCD,,x",
-        1,
-        19,
-        "x",
-        "`TB` has 5 fields here, found another",
-    );
+    wrong("TB,WEAR,1,,,BKIN", 1, 13, "BKIN", &format!("unknown TBOPT `BKIN` of TB,WEAR: {expected}"));
+    wrong("TB,WEAR,1", 1, 1, "TB,WEAR,1", &format!("TB,WEAR without TBOPT: {expected} in its sixth field"));
+    wrong("TB WEAR,1,,,ARCD", 1, 4, "WEAR,1,,,ARCD", "expected `,` after `TB`");
+    wrong("TB,WEAR,1.5,,,ARCD", 1, 9, "1.5", "MATID of TB = 1.5 is not a whole number from 1 to 4294967295");
+    wrong("TB,WEAR,0,,,ARCD", 1, 9, "0", "MATID of TB = 0 is not a whole number from 1 to 4294967295");
+    wrong("TB,WEAR,1,,0,USER", 1, 12, "0", "NPTS of TB = 0 is not a whole number from 1 to 1000");
+    wrong("TB,WEAR,1,,1e9,USER", 1, 12, "1e9", "NPTS of TB = 1000000000 is not a whole number from 1 to 1000");
+    wrong("TB,WEAR,1,-1,,ARCD", 1, 11, "-1", "NTEMP of TB = -1 is not a whole number from 0 to 2147483647");
+    wrong("TB,WEAR,cid,,,ARCD", 1, 9, "cid", "MATID of TB: `cid` is neither a number nor a parameter defined above");
+    wrong("TB,WEAR,1,,,ARCD,,x", 1, 19, "x", "`TB` has 5 fields here, found another");
 }
 
 #[test]
@@ -108,13 +48,8 @@ fn commands_without_their_table() {
         "TBPT,,1,2",
         "`TBPT` changes a wear table in a way that is not read: expected TB, TBDATA, TBFIELD or TBTEMP",
     );
-    let deleted =
-        format!("{ARCHARD}{GOOD}TB,ELASTIC,1\nTBPT,,1,2\nTBDELE,ELASTIC,1\nTBDELE,WEAR,1\n");
-    assert!(
-        diagnostic(&deleted)
-            .to_string()
-            .starts_with("deck.inp:6:1: `TBDELE` changes a wear table")
-    );
+    let deleted = format!("{ARCHARD}{GOOD}TB,ELASTIC,1\nTBPT,,1,2\nTBDELE,ELASTIC,1\nTBDELE,WEAR,1\n");
+    assert!(diagnostic(&deleted).to_string().starts_with("deck.inp:6:1: `TBDELE` changes a wear table"));
 }
 
 #[test]
@@ -128,11 +63,7 @@ fn commands_inside_blocks() {
         "`TB` stands inside *IF of line 1, which is not evaluated: expected wear commands outside of blocks",
     );
     let text = format!("{ARCHARD}*DO,I,1,2\n{GOOD}*ENDDO");
-    assert!(
-        diagnostic(&text)
-            .to_string()
-            .contains("3:1: `TBDATA` stands inside *DO of line 2")
-    );
+    assert!(diagnostic(&text).to_string().contains("3:1: `TBDATA` stands inside *DO of line 2"));
     let closed = format!("*IF,A,EQ,1,:skip\n*DO,I,1,2\n*ENDDO\n{ARCHARD}{GOOD}");
     assert_eq!(super::constants(&closed).len(), 4);
 }
@@ -145,43 +76,13 @@ fn tbdata() {
         let message = format!("STLOC = {value} is out of range: {archard}");
         wrong(&format!("{ARCHARD}TBDATA,{stloc},1"), 2, 8, stloc, &message);
     }
-    wrong(
-        &format!("{ARCHARD}TBDATA,8,1,,2"),
-        2,
-        13,
-        "2",
-        &format!("found constant C10: {archard}"),
-    );
+    wrong(&format!("{ARCHARD}TBDATA,8,1,,2"), 2, 13, "2", &format!("found constant C10: {archard}"));
     let user = "TB,WEAR,1,,2,USER\nTBDATA,1,1,2,33\n";
-    wrong(
-        user,
-        2,
-        14,
-        "33",
-        "found constant C3: TB,WEAR with USER and NPTS = 2 has constants C1 to C2",
-    );
+    wrong(user, 2, 14, "33", "found constant C3: TB,WEAR with USER and NPTS = 2 has constants C1 to C2");
     let continued = "TB,WEAR,1,,2,USER\nTBDATA,1,1,2\nTBDATA,,33\n";
-    wrong(
-        continued,
-        3,
-        9,
-        "33",
-        "found constant C3: TB,WEAR with USER and NPTS = 2 has constants C1 to C2",
-    );
-    wrong(
-        &format!("{ARCHARD}TBDATA,1,1,1,1,1,1,1,77"),
-        2,
-        22,
-        "77",
-        "`TBDATA` has 7 fields here, found another",
-    );
-    wrong(
-        &format!("{ARCHARD}TBDATA 1,1"),
-        2,
-        8,
-        "1,1",
-        "expected `,` after `TBDATA`",
-    );
+    wrong(continued, 3, 9, "33", "found constant C3: TB,WEAR with USER and NPTS = 2 has constants C1 to C2");
+    wrong(&format!("{ARCHARD}TBDATA,1,1,1,1,1,1,1,77"), 2, 22, "77", "`TBDATA` has 7 fields here, found another");
+    wrong(&format!("{ARCHARD}TBDATA 1,1"), 2, 8, "1,1", "expected `,` after `TBDATA`");
     wrong(
         &format!("{ARCHARD}\tTBDATA,1,1,abc,1,1"),
         2,
@@ -193,13 +94,7 @@ fn tbdata() {
 
 #[test]
 fn missing_constants() {
-    wrong(
-        ARCHARD,
-        1,
-        1,
-        "TB,WEAR,1,,,ARCD",
-        "TB,WEAR,1 with ARCD has no TBDATA: expected constants C1 to C4",
-    );
+    wrong(ARCHARD, 1, 1, "TB,WEAR,1,,,ARCD", "TB,WEAR,1 with ARCD has no TBDATA: expected constants C1 to C4");
     wrong(
         "TB,WEAR,1,,2,USER",
         1,
@@ -208,31 +103,12 @@ fn missing_constants() {
         "TB,WEAR,1 with USER has no TBDATA: expected constants C1 to C2",
     );
     let message = "C4 (velocity exponent n) has no value and no default";
-    wrong(
-        &format!("{ARCHARD}TBDATA,1,1,2,3"),
-        2,
-        1,
-        "TBDATA,1,1,2,3",
-        message,
-    );
+    wrong(&format!("{ARCHARD}TBDATA,1,1,2,3"), 2, 1, "TBDATA,1,1,2,3", message);
     let message = "C2 (hardness H) has no value and no default at temperature = 5";
-    wrong(
-        &format!("{ARCHARD}TBTEMP,5\nTBDATA,1,1,,3,4"),
-        3,
-        1,
-        "TBDATA,1,1,,3,4",
-        message,
-    );
+    wrong(&format!("{ARCHARD}TBTEMP,5\nTBDATA,1,1,,3,4"), 3, 1, "TBDATA,1,1,,3,4", message);
     let message = "C3 (of 3 of the law) has no value and no default";
-    wrong(
-        "TB,WEAR,1,,3,USER\nTBDATA,1,1,2",
-        2,
-        1,
-        "TBDATA,1,1,2",
-        message,
-    );
-    let message =
-        "material 4 scales the wear increment but has no law: expected TB,WEAR,4 with ARCD or USER";
+    wrong("TB,WEAR,1,,3,USER\nTBDATA,1,1,2", 2, 1, "TBDATA,1,1,2", message);
+    let message = "material 4 scales the wear increment but has no law: expected TB,WEAR,4 with ARCD or USER";
     wrong("TB,WEAR,4,,,AUTS", 1, 1, "TB,WEAR,4,,,AUTS", message);
 }
 
@@ -240,36 +116,12 @@ fn missing_constants() {
 fn field_values() {
     let user = "TB,WEAR,1,,1,USER\n";
     let case = |commands: &str, line, column, underlined: &str, message: &str| {
-        wrong(
-            &format!("{user}{commands}"),
-            line,
-            column,
-            underlined,
-            message,
-        );
+        wrong(&format!("{user}{commands}"), line, column, underlined, message);
     };
-    case(
-        "TBFIELD,FREQ,1",
-        2,
-        9,
-        "FREQ",
-        "unknown field variable `FREQ` of a wear table: expected TIME or TEMP",
-    );
+    case("TBFIELD,FREQ,1", 2, 9, "FREQ", "unknown field variable `FREQ` of a wear table: expected TIME or TEMP");
     case("TBFIELD,TIME", 2, 1, "TBFIELD,TIME", "TBFIELD has no value");
-    case(
-        "TBFIELD",
-        2,
-        1,
-        "TBFIELD",
-        "the type of TBFIELD has no value",
-    );
-    case(
-        "TBTEMP,1,CRIT",
-        2,
-        10,
-        "CRIT",
-        "KMOD of TBTEMP is not read: expected the temperature only",
-    );
+    case("TBFIELD", 2, 1, "TBFIELD", "the type of TBFIELD has no value");
+    case("TBTEMP,1,CRIT", 2, 10, "CRIT", "KMOD of TBTEMP is not read: expected the temperature only");
     case(
         "TBTEMP,1\nTBDATA,1,1\nTBFIELD,TEMP,2",
         4,
@@ -292,13 +144,7 @@ fn field_values() {
         "temperature = 2 has no TBDATA: expected constants before the next value",
     );
     let back = "goes back or is out of order: expected ascending values, each variable's whole range before the other's next value";
-    case(
-        "TBTEMP,2\nTBDATA,1,1\nTBTEMP,1\nTBDATA,1,1",
-        4,
-        1,
-        "TBTEMP,1",
-        &format!("temperature = 1 {back}"),
-    );
+    case("TBTEMP,2\nTBDATA,1,1\nTBTEMP,1\nTBDATA,1,1", 4, 1, "TBTEMP,1", &format!("temperature = 1 {back}"));
     case(
         "TBFIELD,TIME,0\nTBDATA,1,1\nTBFIELD,TIME,-0\nTBDATA,1,1",
         4,
@@ -369,17 +215,10 @@ fn documented_controls() {
 fn scaling_constants() {
     let scaling = format!("{ARCHARD}{GOOD}TB,WEAR,1,,,AUTS\n");
     for c1 in ["0", "1", "1.5", "-0.1"] {
-        let message =
-            format!("wear scaling factor C1 = {c1}: expected more than 0 and less than 1");
+        let message = format!("wear scaling factor C1 = {c1}: expected more than 0 and less than 1");
         wrong(&format!("{scaling}TBDATA,1,{c1}"), 4, 10, c1, &message);
     }
-    wrong(
-        &format!("{scaling}TBDATA,2,0.5"),
-        4,
-        10,
-        "0.5",
-        "maximum scale factor C2 = 0.5: expected at least 1",
-    );
+    wrong(&format!("{scaling}TBDATA,2,0.5"), 4, 10, "0.5", "maximum scale factor C2 = 0.5: expected at least 1");
     wrong(
         &format!("{scaling}TBDATA,3,0.5"),
         4,

@@ -4,9 +4,7 @@ use super::{constants, wrong};
 
 /// The value of an expression after some lines that set parameters.
 fn value_after(before: &str, expression: &str) -> f64 {
-    constants(&format!(
-        "{before}\nTB,WEAR,1,,1,USER\nTBDATA,1,{expression}\n"
-    ))[0]
+    constants(&format!("{before}\nTB,WEAR,1,,1,USER\nTBDATA,1,{expression}\n"))[0]
 }
 
 fn value(expression: &str) -> f64 {
@@ -78,20 +76,12 @@ fn parameters_hold_their_value_at_the_time() {
 
 #[test]
 fn a_wrong_parameter_that_no_wear_command_needs_does_no_harm() {
-    assert_eq!(
-        value_after("A=B+1\nC='text'\nD=UX(3)\n*GET,E,NODE,1", "3"),
-        3.0
-    );
+    assert_eq!(value_after("A=B+1\nC='text'\nD=UX(3)\n*GET,E,NODE,1", "3"), 3.0);
 }
 
 #[test]
 fn an_undefined_parameter_names_the_nearest() {
-    refused(
-        "HARDNES",
-        1,
-        "HARDNES",
-        "`HARDNES` is neither a number nor a parameter defined above",
-    );
+    refused("HARDNES", 1, "HARDNES", "`HARDNES` is neither a number nor a parameter defined above");
     let text = "hardness=1e10\nTB,WEAR,1,,2,USER\nTBDATA,1,1,2*HARDNES\n";
     wrong(
         text,
@@ -101,19 +91,9 @@ fn an_undefined_parameter_names_the_nearest() {
         "value 2 of TBDATA: `HARDNES` is neither a number nor a parameter defined above; did you mean `HARDNESS`?",
     );
     let removed = "K=1\nK=\nTB,WEAR,1,,1,USER\nTBDATA,1,K";
-    wrong(
-        removed,
-        4,
-        10,
-        "K",
-        "value 1 of TBDATA: `K` is neither a number nor a parameter defined above",
-    );
+    wrong(removed, 4, 10, "K", "value 1 of TBDATA: `K` is neither a number nor a parameter defined above");
     let deleted = removed.replace("K=\n", "*DEL,ALL\n");
-    assert!(
-        super::diagnostic(&deleted)
-            .to_string()
-            .contains("neither a number")
-    );
+    assert!(super::diagnostic(&deleted).to_string().contains("neither a number"));
 }
 
 #[test]
@@ -127,28 +107,15 @@ fn an_unknown_parameter_says_who_set_it() {
         "value 1 of TBDATA: parameter `k` is set by *GET on line 2, which is not evaluated: expected `k=` and a number",
     );
     let block = "*IF,A,GT,1,THEN\nK=1\n*ELSE\nK=2\n*ENDIF\nTB,WEAR,1,,1,USER\nTBDATA,1,K";
-    assert!(
-        super::diagnostic(block)
-            .to_string()
-            .contains("set by *IF on line 4")
-    );
+    assert!(super::diagnostic(block).to_string().contains("set by *IF on line 4"));
 }
 
 #[test]
 fn a_wrong_definition_is_shown_where_it_stands() {
     let text = "K=1e-4*\nL=K\nTB,WEAR,1,,1,USER\nTBDATA,1,L";
-    wrong(
-        text,
-        1,
-        8,
-        "",
-        "parameter K: the expression ends where a number, a parameter or `(` was expected",
-    );
+    wrong(text, 1, 8, "", "parameter K: the expression ends where a number, a parameter or `(` was expected");
     let picture = super::diagnostic(text).render();
-    assert!(
-        picture.contains("TBDATA,1,L") && picture.contains("needed here"),
-        "{picture}"
-    );
+    assert!(picture.contains("TBDATA,1,L") && picture.contains("needed here"), "{picture}");
 }
 
 #[test]
@@ -157,25 +124,10 @@ fn each_wrong_expression_is_underlined() {
     refused("12abc", 1, "12abc", "`12abc` is not a number");
     refused("1e", 1, "1e", "`1e` is not a number");
     refused(".", 1, ".", "`.` is not a number");
-    refused(
-        "1e999",
-        1,
-        "1e999",
-        "`1e999` is beyond what a 64-bit number holds",
-    );
-    refused(
-        "1e-999",
-        1,
-        "1e-999",
-        "`1e-999` is beyond what a 64-bit number holds",
-    );
+    refused("1e999", 1, "1e999", "`1e999` is beyond what a 64-bit number holds");
+    refused("1e-999", 1, "1e-999", "`1e-999` is beyond what a 64-bit number holds");
     refused("1/0", 1, "1/0", "the result is not finite");
-    refused(
-        "2+(1e300*1e300)",
-        4,
-        "1e300*1e300",
-        "the result is not finite",
-    );
+    refused("2+(1e300*1e300)", 4, "1e300*1e300", "the result is not finite");
     refused("SQRT(-1)", 1, "SQRT(-1)", "the result is not finite");
     refused("(-8)**0.5", 1, "(-8)**0.5", "the result is not finite");
     refused(
@@ -185,30 +137,10 @@ fn each_wrong_expression_is_underlined() {
         "unknown function `TANH`: expected SQRT, ABS, EXP, LOG or LOG10 (array elements are not read)",
     );
     refused("(1+2", 5, "", "the expression ends where `)` was expected");
-    refused(
-        "1)",
-        2,
-        ")",
-        "found `)`, expected an operator or the end of the field",
-    );
-    refused(
-        "1 2",
-        3,
-        "2",
-        "found `2`, expected an operator or the end of the field",
-    );
-    refused(
-        "'1'",
-        1,
-        "'",
-        "found `\\'`, expected a number, a parameter or `(`",
-    );
-    refused(
-        "2+",
-        3,
-        "",
-        "the expression ends where a number, a parameter or `(` was expected",
-    );
+    refused("1)", 2, ")", "found `)`, expected an operator or the end of the field");
+    refused("1 2", 3, "2", "found `2`, expected an operator or the end of the field");
+    refused("'1'", 1, "'", "found `\\'`, expected a number, a parameter or `(`");
+    refused("2+", 3, "", "the expression ends where a number, a parameter or `(` was expected");
     refused(
         "2 *3",
         3,
@@ -221,11 +153,7 @@ fn each_wrong_expression_is_underlined() {
 fn nesting_is_bounded() {
     let deep = format!("{}1{}", "(".repeat(60), ")".repeat(60));
     assert_eq!(value(&deep), 1.0);
-    for deep in [
-        "(".repeat(100_000),
-        "2**".repeat(100_000),
-        "SQRT(".repeat(100_000),
-    ] {
+    for deep in ["(".repeat(100_000), "2**".repeat(100_000), "SQRT(".repeat(100_000)] {
         let text = format!("TB,WEAR,1,,1,USER\nTBDATA,1,{deep}");
         let found = super::diagnostic(&text).to_string();
         assert!(found.contains("more than 64 deep"), "{found:.200}");

@@ -54,10 +54,7 @@ fn a_byte_order_mark_and_long_lines() {
     let found = super::diagnostic(&format!("TB,{long}WEAR,1,,,NONE"));
     assert_eq!(found.column, 200_013);
     let picture = found.render();
-    assert!(
-        picture.contains("^^^^") && picture.len() < 1000,
-        "{picture}"
-    );
+    assert!(picture.contains("^^^^") && picture.len() < 1000, "{picture}");
 }
 
 #[test]
@@ -83,10 +80,7 @@ fn what_is_not_about_wear_is_counted() {
     });
     assert_eq!(deck(text).notes, expected);
     assert_eq!(constants(text), PLAIN);
-    assert_eq!(
-        deck(text).notes[2].to_string(),
-        "passed over MP: 4 times, first on line 3"
-    );
+    assert_eq!(deck(text).notes[2].to_string(), "passed over MP: 4 times, first on line 3");
 }
 
 #[test]
@@ -97,8 +91,7 @@ fn nothing_after_eof_is_read() {
 
 #[test]
 fn the_format_line_of_a_written_file_is_no_command() {
-    let text =
-        "K=1e-4\n*CFOPEN,out\n*VWRITE,K\nK = 7 (F8.2)\nTB,WEAR,1,,,ARCD\nTBDATA,1,K,1e10,1,1";
+    let text = "K=1e-4\n*CFOPEN,out\n*VWRITE,K\nK = 7 (F8.2)\nTB,WEAR,1,,,ARCD\nTBDATA,1,K,1e10,1,1";
     assert_eq!(constants(text), PLAIN);
 }
 
@@ -109,20 +102,11 @@ fn a_file_in_another_encoding() {
     let mut bytes = b"! Verschlei\xdf\n/TITLE,caf\xe9\nTB,WEAR,1,,,ARCD ! \xff\xfe\n".to_vec();
     std::fs::write(&path, [&bytes[..], b"TBDATA,1,1e-4,1e10,1,1"].concat()).unwrap();
     let read = super::Deck::read(&path).unwrap();
-    assert_eq!(
-        read.material(None).unwrap().tables[0].constants,
-        PLAIN.map(Some)
-    );
+    assert_eq!(read.material(None).unwrap().tables[0].constants, PLAIN.map(Some));
     bytes.extend(b"TBDATA,1,1\xe9-4,1e10,1,1");
     std::fs::write(&path, bytes).unwrap();
     let refused = super::Deck::read(&path).unwrap_err().to_string();
-    assert!(
-        refused.contains("deck.dat:4:11: value 1 of TBDATA: found `\u{fffd}`, expected"),
-        "{refused}"
-    );
+    assert!(refused.contains("deck.dat:4:11: value 1 of TBDATA: found `\u{fffd}`, expected"), "{refused}");
     let absent = super::Deck::read(&folder.path().join("none.inp")).unwrap_err();
-    assert!(
-        absent.to_string().contains("none.inp: No such file"),
-        "{absent}"
-    );
+    assert!(absent.to_string().contains("none.inp: No such file"), "{absent}");
 }

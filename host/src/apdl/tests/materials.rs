@@ -3,8 +3,7 @@
 use super::super::{LawOption, Note, Span};
 use super::{deck, diagnostic};
 
-const TWO: &str =
-    "TB,WEAR,7,,,ARCD\nTBDATA,1,1,2,3,4\nTB,WEAR,2,,1,USER\nTBDATA,1,5\nTB,WEAR,7,,,AUTS\n";
+const TWO: &str = "TB,WEAR,7,,,ARCD\nTBDATA,1,1,2,3,4\nTB,WEAR,2,,1,USER\nTBDATA,1,5\nTB,WEAR,7,,,AUTS\n";
 
 #[test]
 fn several_materials_keep_their_own_tables() {
@@ -13,11 +12,7 @@ fn several_materials_keep_their_own_tables() {
     let seven = deck.material(Some(7)).unwrap();
     assert_eq!(seven.option, LawOption::Archard);
     assert!(seven.scaling.is_some());
-    let expected = Span {
-        line: 1,
-        start: 0,
-        end: 16,
-    };
+    let expected = Span { line: 1, start: 0, end: 16 };
     assert_eq!(seven.span, expected);
     let two = deck.material(Some(2)).unwrap();
     assert_eq!(two.option, LawOption::User { constants: 1 });
@@ -28,19 +23,10 @@ fn several_materials_keep_their_own_tables() {
 #[test]
 fn the_choice_is_refused_with_a_list() {
     let message = |text: &str, chosen| deck(text).material(chosen).unwrap_err().to_string();
-    assert_eq!(
-        message(TWO, None),
-        "deck.inp: materials 2, 7 have wear laws, expected a choice of one"
-    );
-    assert_eq!(
-        message(TWO, Some(3)),
-        "deck.inp: material 3 has no wear law, found one for 2, 7"
-    );
+    assert_eq!(message(TWO, None), "deck.inp: materials 2, 7 have wear laws, expected a choice of one");
+    assert_eq!(message(TWO, Some(3)), "deck.inp: material 3 has no wear law, found one for 2, 7");
     for chosen in [None, Some(1)] {
-        assert_eq!(
-            message("MP,EX,1,2e11\n", chosen),
-            "deck.inp: found no TB,WEAR with ARCD or USER, expected one"
-        );
+        assert_eq!(message("MP,EX,1,2e11\n", chosen), "deck.inp: found no TB,WEAR with ARCD or USER, expected one");
     }
     let one = deck("TB,WEAR,4,,,USER");
     assert_eq!(one.material(None).unwrap().id, 4);
@@ -59,22 +45,14 @@ fn a_second_law_or_scaling_is_shown_beside_the_first() {
     assert!(picture.contains("1 | TB,WEAR,1,,,ARCD"), "{picture}");
     assert!(picture.contains("given here"), "{picture}");
     let scaling = "TB,WEAR,1,,,AUTS\nTB,WEAR,1,,,CBCS\n";
-    assert!(
-        diagnostic(scaling)
-            .to_string()
-            .contains("2:1: material 1 has a scaling already")
-    );
+    assert!(diagnostic(scaling).to_string().contains("2:1: material 1 has a scaling already"));
 }
 
 #[test]
 fn a_direction_that_is_scaled_is_noted() {
     let text = "MP,EX,1,1\nTB,WEAR,1,,,ARCD\nTBDATA,1,1,2,3,4,0,3\nTBDATA,8,-4\n";
     let notes = deck(text).notes;
-    let expected = Note::DirectionScaled {
-        material: 1,
-        line: 2,
-        given: [3.0, 0.0, -4.0],
-    };
+    let expected = Note::DirectionScaled { material: 1, line: 2, given: [3.0, 0.0, -4.0] };
     assert_eq!(notes[1..], [expected]);
     assert_eq!(
         notes[1].to_string(),

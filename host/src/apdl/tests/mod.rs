@@ -39,18 +39,12 @@ fn wrong(text: &str, line: usize, column: usize, underlined: &str, message: &str
     let expected = format!("deck.inp:{line}:{column}: {message}");
     assert_eq!(found.to_string(), expected);
     let picture = found.render();
-    assert!(
-        picture.contains(&format!("deck.inp:{line}:{column}")),
-        "{picture}"
-    );
+    assert!(picture.contains(&format!("deck.inp:{line}:{column}")), "{picture}");
     let width = underlined.chars().count().max(1);
     let marks = picture.chars().filter(|c| *c == '^').count();
     assert_eq!(marks, width, "{picture}");
     let source = text.split('\n').nth(line - 1).unwrap();
     let at: String = source.chars().skip(column - 1).collect();
-    assert!(
-        at.starts_with(underlined),
-        "{at} does not start with {underlined}"
-    );
+    assert!(at.starts_with(underlined), "{at} does not start with {underlined}");
     found.problem
 }

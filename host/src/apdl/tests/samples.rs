@@ -64,8 +64,7 @@ fn a_user_law_with_four_constants() {
 fn both_kinds_of_scaling() {
     for (option, kind) in [("AUTS", ScalingKind::Auto), ("CBCS", ScalingKind::Cycle)] {
         let law = "TB,WEAR,3,,,ARCD\nTBDATA,1,1e-4,1e10,1,1\n";
-        let scaling =
-            format!("TB,WEAR,3,,,{option} ! scaling of wear increment\nTBDATA,1,0.2,5e4\n");
+        let scaling = format!("TB,WEAR,3,,,{option} ! scaling of wear increment\nTBDATA,1,0.2,5e4\n");
         for text in [format!("{law}{scaling}"), format!("{scaling}{law}")] {
             let found = only(&text).scaling.unwrap();
             assert_eq!((found.kind, found.safety, found.maximum), (kind, 0.2, 5e4));

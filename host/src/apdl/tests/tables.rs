@@ -7,8 +7,7 @@ use super::{constants, only};
 fn points(commands: &str) -> Vec<(Option<f64>, Option<f64>, f64)> {
     let material = only(&format!("TB,WEAR,1,,1,USER\n{commands}"));
     let rows = material.tables.iter();
-    rows.map(|r| (r.time, r.temperature, r.constants[0].unwrap()))
-        .collect()
+    rows.map(|r| (r.time, r.temperature, r.constants[0].unwrap())).collect()
 }
 
 #[test]
@@ -42,8 +41,7 @@ fn a_new_point_starts_at_the_first_location_again() {
 fn more_constants_than_a_line_holds() {
     let archard = constants("TB,WEAR,1,,,ARCD\nTBDATA,1,1,2,3,4,10,0\nTBDATA,7,0,1");
     assert_eq!(archard, [1.0, 2.0, 3.0, 4.0, 10.0, 0.0, 0.0, 1.0]);
-    let user =
-        constants("TB,WEAR,1,,13,USER\nTBDATA,1,1,2,3,4,5,6\nTBDATA,,7,8,9,10,11,12\nTBDATA,,13");
+    let user = constants("TB,WEAR,1,,13,USER\nTBDATA,1,1,2,3,4,5,6\nTBDATA,,7,8,9,10,11,12\nTBDATA,,13");
     assert_eq!(user, (1..=13).map(f64::from).collect::<Vec<_>>());
 }
 
@@ -61,28 +59,18 @@ fn blank_arguments_of_tb() {
 
 #[test]
 fn one_variable() {
-    let by_time = points(
-        "TBFIELD,TIME,0\nTBDATA,1,1\nTBFIELD,time,0.5\nTBDATA,1,2\nTBFIELD,TIME,2\nTBDATA,1,3",
-    );
+    let by_time = points("TBFIELD,TIME,0\nTBDATA,1,1\nTBFIELD,time,0.5\nTBDATA,1,2\nTBFIELD,TIME,2\nTBDATA,1,3");
     let t = |t: f64, c: f64| (Some(t), None, c);
     assert_eq!(by_time, [t(0.0, 1.0), t(0.5, 2.0), t(2.0, 3.0)]);
     let by_temperature = points("TBFIELD,TEMP,-50\nTBDATA,1,1\nTBFIELD,Temp,20\nTBDATA,1,2");
-    assert_eq!(
-        by_temperature,
-        [(None, Some(-50.0), 1.0), (None, Some(20.0), 2.0)]
-    );
+    assert_eq!(by_temperature, [(None, Some(-50.0), 1.0), (None, Some(20.0), 2.0)]);
     assert_eq!(points("TBTEMP\nTBDATA,1,1"), [(None, Some(0.0), 1.0)]);
 }
 
 #[test]
 fn time_and_temperature_in_either_order() {
     let p = |t: f64, temp: f64, c: f64| (Some(t), Some(temp), c);
-    let expected = [
-        p(0.0, 20.0, 1.0),
-        p(1.0, 20.0, 2.0),
-        p(0.0, 90.0, 3.0),
-        p(1.0, 90.0, 4.0),
-    ];
+    let expected = [p(0.0, 20.0, 1.0), p(1.0, 20.0, 2.0), p(0.0, 90.0, 3.0), p(1.0, 90.0, 4.0)];
     let held = "TBFIELD,TEMP,20\nTBFIELD,TIME,0\nTBDATA,1,1\nTBFIELD,TIME,1\nTBDATA,1,2\n\
                 TBFIELD,TEMP,90\nTBFIELD,TIME,0\nTBDATA,1,3\nTBFIELD,TIME,1\nTBDATA,1,4\n";
     assert_eq!(points(held), expected);
@@ -97,8 +85,6 @@ fn time_and_temperature_in_either_order() {
 
 #[test]
 fn a_long_table() {
-    let rows: String = (0..20_000)
-        .map(|i| format!("TBFIELD,TIME,{i}\nTBDATA,1,{i}\n"))
-        .collect();
+    let rows: String = (0..20_000).map(|i| format!("TBFIELD,TIME,{i}\nTBDATA,1,{i}\n")).collect();
     assert_eq!(points(&rows).len(), 20_000);
 }

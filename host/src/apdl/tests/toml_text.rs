@@ -73,28 +73,13 @@ fn a_user_law_asks_for_its_path() {
 }
 
 fn material(option: LawOption, rows: Vec<TableRow>) -> WearMaterial {
-    WearMaterial {
-        id: 1,
-        option,
-        tables: rows,
-        scaling: None,
-        span: HERE,
-    }
+    WearMaterial { id: 1, option, tables: rows, scaling: None, span: HERE }
 }
 
-const HERE: Span = Span {
-    line: 1,
-    start: 0,
-    end: 0,
-};
+const HERE: Span = Span { line: 1, start: 0, end: 0 };
 
 fn row(time: Option<f64>, constants: &[Option<f64>]) -> TableRow {
-    TableRow {
-        time,
-        temperature: None,
-        constants: constants.to_vec(),
-        span: HERE,
-    }
+    TableRow { time, temperature: None, constants: constants.to_vec(), span: HERE }
 }
 
 #[test]
@@ -104,63 +89,26 @@ fn a_material_made_by_hand_is_checked_too() {
     let with_flag = |flag| [full.as_slice(), &[Some(flag)]].concat();
     assert_eq!(
         refused(material(LawOption::Archard, vec![row(None, &full[..3])])),
-        LowerError::MissingConstant {
-            material: 1,
-            row: 1,
-            location: 4
-        }
+        LowerError::MissingConstant { material: 1, row: 1, location: 4 }
     );
+    assert_eq!(refused(material(LawOption::Archard, vec![])), LowerError::NoPoint { material: 1, rows: 0 });
     assert_eq!(
-        refused(material(LawOption::Archard, vec![])),
-        LowerError::NoPoint {
-            material: 1,
-            rows: 0
-        }
-    );
-    assert_eq!(
-        refused(material(
-            LawOption::Archard,
-            vec![row(None, &full), row(None, &full)]
-        )),
-        LowerError::NoPoint {
-            material: 1,
-            rows: 2
-        }
+        refused(material(LawOption::Archard, vec![row(None, &full), row(None, &full)])),
+        LowerError::NoPoint { material: 1, rows: 2 }
     );
     let infinite = [Some(f64::INFINITY)];
     assert_eq!(
-        refused(material(
-            LawOption::User { constants: 1 },
-            vec![row(None, &infinite)]
-        )),
-        LowerError::NotFinite {
-            material: 1,
-            value: f64::INFINITY
-        }
+        refused(material(LawOption::User { constants: 1 }, vec![row(None, &infinite)])),
+        LowerError::NotFinite { material: 1, value: f64::INFINITY }
     );
     let differ = vec![row(Some(0.0), &with_flag(1.0)), row(Some(1.0), &full)];
-    assert_eq!(
-        refused(material(LawOption::Archard, differ)),
-        LowerError::ControlsDiffer {
-            material: 1,
-            row: 2
-        }
-    );
-    let wrong = refused(material(
-        LawOption::Archard,
-        vec![row(None, &with_flag(3.0))],
-    ));
-    assert!(
-        wrong
-            .to_string()
-            .contains("material 1, row 1: C5 = 3 is not a documented flag")
-    );
+    assert_eq!(refused(material(LawOption::Archard, differ)), LowerError::ControlsDiffer { material: 1, row: 2 });
+    let wrong = refused(material(LawOption::Archard, vec![row(None, &with_flag(3.0))]));
+    assert!(wrong.to_string().contains("material 1, row 1: C5 = 3 is not a documented flag"));
 }
 
 fn finite() -> impl Strategy<Value = f64> {
-    any::<u64>()
-        .prop_map(f64::from_bits)
-        .prop_filter("finite", |x| x.is_finite())
+    any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite())
 }
 
 proptest! {

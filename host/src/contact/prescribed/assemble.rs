@@ -42,13 +42,7 @@ struct Disorder {
 
 impl RowIndex {
     /// Takes one row; `line` finds its line if something is wrong with it.
-    pub fn push(
-        &mut self,
-        path: &Path,
-        time: f64,
-        id: i64,
-        line: &dyn Fn() -> u64,
-    ) -> Result<Slot, HistoryError> {
+    pub fn push(&mut self, path: &Path, time: f64, id: i64, line: &dyn Fn() -> u64) -> Result<Slot, HistoryError> {
         let known = self.points.find(id, self.last);
         let is_new = known.is_none();
         let point = known.unwrap_or(self.points.len());
@@ -58,11 +52,7 @@ impl RowIndex {
         } else if time != self.times[at] {
             return Err(self.misfit(path, time, id, at, line));
         }
-        let slot = Slot {
-            time: at,
-            point,
-            is_new,
-        };
+        let slot = Slot { time: at, point, is_new };
         self.note_order(slot);
         if is_new {
             self.points.push(id);
@@ -93,21 +83,10 @@ impl RowIndex {
             let twice = self.times.len() > 1 && self.times[self.times.len() - 2] == before;
             if time < before {
                 let path = path.into();
-                return Err(HistoryError::TimeGoesBack {
-                    path,
-                    line: line(),
-                    before,
-                    time,
-                    point: id,
-                });
+                return Err(HistoryError::TimeGoesBack { path, line: line(), before, time, point: id });
             }
             if time == before && twice {
-                return Err(HistoryError::TimeRepeated {
-                    path: path.into(),
-                    line: line(),
-                    time,
-                    point: id,
-                });
+                return Err(HistoryError::TimeRepeated { path: path.into(), line: line(), time, point: id });
             }
         }
         self.times.push(time);
@@ -116,70 +95,31 @@ impl RowIndex {
     }
 
     /// The error for a row whose time is not the one that its point should have next.
-    fn misfit(
-        &self,
-        path: &Path,
-        time: f64,
-        id: i64,
-        at: usize,
-        line: &dyn Fn() -> u64,
-    ) -> HistoryError {
+    fn misfit(&self, path: &Path, time: f64, id: i64, at: usize, line: &dyn Fn() -> u64) -> HistoryError {
         let path = path.to_path_buf();
         let expected = self.times[at];
         let other = self.points.id(self.first[at] as usize);
         let before = at.checked_sub(1).map(|at| self.times[at]);
         match before {
-            Some(before) if time < before => HistoryError::TimeGoesBack {
-                path,
-                line: line(),
-                before,
-                time,
-                point: id,
-            },
-            Some(before) if time == before => HistoryError::PointTwice {
-                path,
-                line: line(),
-                point: id,
-                time,
-                other,
-            },
-            Some(before) if expected == before => HistoryError::PointTwice {
-                path,
-                line: line(),
-                point: other,
-                time: before,
-                other: id,
-            },
-            _ if time < expected => HistoryError::PointMissing {
-                path,
-                point: other,
-                time,
-                other: id,
-            },
-            _ => HistoryError::PointMissing {
-                path,
-                point: id,
-                time: expected,
-                other,
-            },
+            Some(before) if time < before => HistoryError::TimeGoesBack { path, line: line(), before, time, point: id },
+            Some(before) if time == before => HistoryError::PointTwice { path, line: line(), point: id, time, other },
+            Some(before) if expected == before => {
+                HistoryError::PointTwice { path, line: line(), point: other, time: before, other: id }
+            }
+            _ if time < expected => HistoryError::PointMissing { path, point: other, time, other: id },
+            _ => HistoryError::PointMissing { path, point: id, time: expected, other },
         }
     }
 
     /// Takes note of a row that is about to be added, its point not yet.
     fn note_order(&mut self, slot: Slot) {
-        let in_order = if slot.is_new {
-            self.times.len() == 1
-        } else {
-            slot.time * self.points.len() + slot.point == self.rows
-        };
+        let in_order =
+            if slot.is_new { self.times.len() == 1 } else { slot.time * self.points.len() + slot.point == self.rows };
         if !in_order && self.disorder.is_none() {
             let points = self.points.len();
             let before = (0..self.rows).map(|row| ((row / points) as u32, (row % points) as u32));
             let seen = (0..points).map(|point| self.seen(point) as u32);
-            self.disorder = Some(Disorder {
-                slots: before.collect(),
-                seen: seen.collect(),
-            });
+            self.disorder = Some(Disorder { slots: before.collect(), seen: seen.collect() });
         }
         if let Some(disorder) = &mut self.disorder {
             if slot.is_new {
@@ -217,30 +157,14 @@ impl RowIndex {
             let other = self.points.id(self.first[at] as usize);
             let path = path.to_path_buf();
             return Err(if at > 0 && self.times[at - 1] == time {
-                HistoryError::PointTwice {
-                    path,
-                    line: 0,
-                    point: other,
-                    time,
-                    other: point,
-                }
+                HistoryError::PointTwice { path, line: 0, point: other, time, other: point }
             } else {
-                HistoryError::PointMissing {
-                    path,
-                    point,
-                    time,
-                    other,
-                }
+                HistoryError::PointMissing { path, point, time, other }
             });
         }
         let (ids, rank) = self.points.sorted();
         let slots = self.disorder.map(|disorder| disorder.slots);
-        Ok(Placement {
-            times: self.times,
-            ids,
-            slots,
-            rank,
-        })
+        Ok(Placement { times: self.times, ids, slots, rank })
     }
 }
 
@@ -277,18 +201,12 @@ impl Points {
 
     /// The place of an id; mostly the one after the last, the last itself, or the first.
     fn find(&self, id: i64, last: usize) -> Option<usize> {
-        let usual = |ids: &[i64]| {
-            [last + 1, last, 0]
-                .into_iter()
-                .find(|at| ids.get(*at) == Some(&id))
-        };
+        let usual = |ids: &[i64]| [last + 1, last, 0].into_iter().find(|at| ids.get(*at) == Some(&id));
         match self {
             Points::Counted(points) => usize::try_from(id).ok().filter(|at| at < points),
             Points::Ascending(ids) if ids.last().is_none_or(|greatest| id > *greatest) => None,
             Points::Ascending(ids) => usual(ids).or_else(|| ids.binary_search(&id).ok()),
-            Points::Mixed(ids, places) => {
-                usual(ids).or_else(|| places.get(&id).map(|at| *at as usize))
-            }
+            Points::Mixed(ids, places) => usual(ids).or_else(|| places.get(&id).map(|at| *at as usize)),
         }
     }
 
@@ -305,11 +223,7 @@ impl Points {
                 ids.push(id);
                 return;
             }
-            let places = ids
-                .iter()
-                .enumerate()
-                .map(|(at, id)| (*id, at as u32))
-                .collect();
+            let places = ids.iter().enumerate().map(|(at, id)| (*id, at as u32)).collect();
             *self = Points::Mixed(std::mem::take(ids), places);
         }
         if let Points::Mixed(ids, places) = self {
@@ -377,8 +291,6 @@ impl Placement {
     }
 
     fn rank_of(&self, point: usize) -> usize {
-        self.rank
-            .as_ref()
-            .map_or(point, |rank| rank[point] as usize)
+        self.rank.as_ref().map_or(point, |rank| rank[point] as usize)
     }
 }

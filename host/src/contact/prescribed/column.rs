@@ -80,14 +80,8 @@ impl Column {
     /// The three components of the normal.
     pub const NORMAL: [Column; 3] = [Column::NormalX, Column::NormalY, Column::NormalZ];
     /// The six components of the nodal stress.
-    pub const STRESS: [Column; 6] = [
-        Column::StressXx,
-        Column::StressYy,
-        Column::StressZz,
-        Column::StressXy,
-        Column::StressYz,
-        Column::StressXz,
-    ];
+    pub const STRESS: [Column; 6] =
+        [Column::StressXx, Column::StressYy, Column::StressZz, Column::StressXy, Column::StressYz, Column::StressXz];
     /// The three coordinates.
     pub const COORDINATES: [Column; 3] = [Column::X, Column::Y, Column::Z];
 
@@ -125,9 +119,7 @@ impl Needs {
 
     /// The given columns; a further input is asked for with [`Needs::add_further`].
     pub fn of(columns: &[Column]) -> Needs {
-        columns
-            .iter()
-            .fold(Needs::none(), |needs, c| needs.with(*c))
+        columns.iter().fold(Needs::none(), |needs, c| needs.with(*c))
     }
 
     /// This set and one column more.

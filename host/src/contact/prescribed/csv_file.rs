@@ -13,10 +13,7 @@ use std::path::Path;
 fn reader(path: &Path) -> Result<csv::Reader<File>, HistoryError> {
     let file = open(path)?;
     let mut builder = csv::ReaderBuilder::new();
-    builder
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(b'#'));
+    builder.has_headers(false).flexible(true).comment(Some(b'#'));
     Ok(builder.buffer_capacity(1 << 16).from_reader(file))
 }
 
@@ -25,10 +22,7 @@ fn io_fault(path: &Path, fault: csv::Error) -> HistoryError {
         csv::ErrorKind::Io(source) => source,
         _ => std::io::Error::from(std::io::ErrorKind::InvalidData),
     };
-    HistoryError::Io {
-        path: path.into(),
-        source,
-    }
+    HistoryError::Io { path: path.into(), source }
 }
 
 /// The names of a CSV history.
@@ -39,9 +33,7 @@ pub(super) fn header(path: &Path) -> Result<Header, HistoryError> {
 
 fn next_header(path: &Path, reader: &mut csv::Reader<File>) -> Result<Header, HistoryError> {
     let mut record = ByteRecord::new();
-    let found = reader
-        .read_byte_record(&mut record)
-        .map_err(|e| io_fault(path, e))?;
+    let found = reader.read_byte_record(&mut record).map_err(|e| io_fault(path, e))?;
     if !found {
         return Err(HistoryError::Empty { path: path.into() });
     }
@@ -108,19 +100,12 @@ pub(super) fn read(header: &Header, needs: &Needs) -> Result<History, HistoryErr
     let mut sources: Vec<Source> = Vec::new();
     for (field, name) in header.names.iter().enumerate() {
         if let Some(column) = needs.wanted(name) {
-            sources.push(Source {
-                field,
-                column,
-                values: Growing::new(),
-            });
+            sources.push(Source { field, column, values: Growing::new() });
         }
     }
     let source_of = |column| sources.iter().position(|source| source.column == column);
     let area = source_of(Column::Area);
-    let normal: Vec<usize> = Column::NORMAL
-        .iter()
-        .filter_map(|c| source_of(*c))
-        .collect();
+    let normal: Vec<usize> = Column::NORMAL.iter().filter_map(|c| source_of(*c)).collect();
     let whole_normal = needs.has(Column::NormalX) && needs.has(Column::NormalZ);
 
     let mut index = RowIndex::default();
@@ -132,10 +117,7 @@ pub(super) fn read(header: &Header, needs: &Needs) -> Result<History, HistoryErr
     let mut expected = 0;
     let byte = Cell::new(0);
     let line = || line_of(path, byte.get());
-    while reader
-        .read_byte_record(&mut record)
-        .map_err(|e| io_fault(path, e))?
-    {
+    while reader.read_byte_record(&mut record).map_err(|e| io_fault(path, e))? {
         byte.set(record.position().map_or(0, csv::Position::byte));
         if record.len() != header.names.len() {
             return Err(HistoryError::FieldCount {
@@ -165,21 +147,10 @@ pub(super) fn read(header: &Header, needs: &Needs) -> Result<History, HistoryErr
             *value = number(source.field)?;
         }
         if let Some(area) = area.map(|at| row_values[at]).filter(|area| *area <= 0.0) {
-            return Err(HistoryError::Area {
-                path: path.into(),
-                line: line(),
-                point: id,
-                time,
-                area,
-            });
+            return Err(HistoryError::Area { path: path.into(), line: line(), point: id, time, area });
         }
         if whole_normal && normal.iter().all(|at| row_values[*at] == 0.0) {
-            return Err(HistoryError::ZeroNormal {
-                path: path.into(),
-                line: line(),
-                point: id,
-                time,
-            });
+            return Err(HistoryError::ZeroNormal { path: path.into(), line: line(), point: id, time });
         }
         let slot = index.push(path, time, id, &line)?;
         if index.rows().is_multiple_of(1024) {
@@ -192,16 +163,9 @@ pub(super) fn read(header: &Header, needs: &Needs) -> Result<History, HistoryErr
         }
     }
     let placement = index.finish(path)?;
-    let columns = sources
-        .into_iter()
-        .map(|source| (source.column, source.values.finish(&placement)));
+    let columns = sources.into_iter().map(|source| (source.column, source.values.finish(&placement)));
     let columns = columns.collect();
-    Ok(History {
-        path: path.into(),
-        columns,
-        point_ids: placement.ids,
-        times: placement.times,
-    })
+    Ok(History { path: path.into(), columns, point_ids: placement.ids, times: placement.times })
 }
 
 fn parse(text: &[u8]) -> Option<f64> {
@@ -226,20 +190,8 @@ fn bad_number(header: &Header, field: usize, text: &[u8], line: u64) -> HistoryE
     let text = String::from_utf8_lossy(text).into_owned();
     let column = field + 1;
     if text.parse::<f64>().is_ok() {
-        HistoryError::NotFinite {
-            path,
-            line,
-            column,
-            name,
-            text,
-        }
+        HistoryError::NotFinite { path, line, column, name, text }
     } else {
-        HistoryError::NotANumber {
-            path,
-            line,
-            column,
-            name,
-            text,
-        }
+        HistoryError::NotANumber { path, line, column, name, text }
     }
 }

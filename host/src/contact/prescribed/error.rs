@@ -17,10 +17,7 @@ pub enum HistoryError {
     NotAFile { path: PathBuf },
     /// The operating system failed to read the file.
     #[error("{}: cannot be read: {source}", path.display())]
-    Io {
-        path: PathBuf,
-        source: std::io::Error,
-    },
+    Io { path: PathBuf, source: std::io::Error },
     /// A file of zero bytes or of comments only.
     #[error("{}: empty file, expected a header row such as time,point,pressure", path.display())]
     Empty { path: PathBuf },
@@ -34,206 +31,96 @@ pub enum HistoryError {
         place(*line, *column),
         suggestion(nearest)
     )]
-    UnknownColumn {
-        path: PathBuf,
-        name: String,
-        line: u64,
-        column: usize,
-        nearest: Option<String>,
-    },
+    UnknownColumn { path: PathBuf, name: String, line: u64, column: usize, nearest: Option<String> },
     /// The same name twice.
     #[error("{}: column `{name}` is given twice{}", path.display(), place(*line, *column))]
-    RepeatedColumn {
-        path: PathBuf,
-        name: String,
-        line: u64,
-        column: usize,
-    },
+    RepeatedColumn { path: PathBuf, name: String, line: u64, column: usize },
     /// A column that is always needed, or that the plan asked for, is not there.
     #[error("{}: no column `{name}`, found {}", path.display(), list(found))]
-    MissingColumn {
-        path: PathBuf,
-        name: String,
-        found: Vec<String>,
-    },
+    MissingColumn { path: PathBuf, name: String, found: Vec<String> },
     /// Two columns that say the same thing in different ways.
     #[error("{}: both `{first}` and `{second}` are given, expected one of them", path.display())]
-    Conflict {
-        path: PathBuf,
-        first: &'static str,
-        second: &'static str,
-    },
+    Conflict { path: PathBuf, first: &'static str, second: &'static str },
     /// Part of a vector or tensor.
     #[error(
         "{}: `{present}` without `{missing}`, expected all of {group} (in 2-D, the x-z plane, all without y)",
         path.display()
     )]
-    PartOfVector {
-        path: PathBuf,
-        present: &'static str,
-        missing: &'static str,
-        group: &'static str,
-    },
+    PartOfVector { path: PathBuf, present: &'static str, missing: &'static str, group: &'static str },
     /// A row with too many or too few fields.
     #[error("{}: line {line}: found {found} fields, expected {expected} as in the header", path.display())]
-    FieldCount {
-        path: PathBuf,
-        line: u64,
-        found: usize,
-        expected: usize,
-    },
+    FieldCount { path: PathBuf, line: u64, found: usize, expected: usize },
     /// A field that is not a number.
     #[error("{}: line {line}, column {column} (`{name}`): found `{text}`, expected a number", path.display())]
-    NotANumber {
-        path: PathBuf,
-        line: u64,
-        column: usize,
-        name: String,
-        text: String,
-    },
+    NotANumber { path: PathBuf, line: u64, column: usize, name: String, text: String },
     /// A point id that is not an integer.
     #[error("{}: line {line}, column {column} (`point`): found `{text}`, expected an integer", path.display())]
-    NotAnId {
-        path: PathBuf,
-        line: u64,
-        column: usize,
-        text: String,
-    },
+    NotAnId { path: PathBuf, line: u64, column: usize, text: String },
     /// NaN, infinity or a number too large for a double, in a CSV file.
     #[error(
         "{}: line {line}, column {column} (`{name}`): found `{text}`, expected a finite number",
         path.display()
     )]
-    NotFinite {
-        path: PathBuf,
-        line: u64,
-        column: usize,
-        name: String,
-        text: String,
-    },
+    NotFinite { path: PathBuf, line: u64, column: usize, name: String, text: String },
     /// NaN or infinity in an array.
     #[error("{}: array `{name}`, element {element}: found {value}, expected a finite number", path.display())]
-    NotFiniteElement {
-        path: PathBuf,
-        name: String,
-        element: usize,
-        value: f64,
-    },
+    NotFiniteElement { path: PathBuf, name: String, element: usize, value: f64 },
     /// A point id in an array that is not an integer.
     #[error("{}: array `point`, element {element}: found {value}, expected an integer", path.display())]
-    NotAnIdElement {
-        path: PathBuf,
-        element: usize,
-        value: f64,
-    },
+    NotAnIdElement { path: PathBuf, element: usize, value: f64 },
     /// Times that decrease.
     #[error("{}{}: time goes back from {before} to {time} (point {point})", path.display(), at(*line))]
-    TimeGoesBack {
-        path: PathBuf,
-        line: u64,
-        before: f64,
-        time: f64,
-        point: i64,
-    },
+    TimeGoesBack { path: PathBuf, line: u64, before: f64, time: f64, point: i64 },
     /// Times of a grid that decrease.
     #[error("{}: array `time`, element {element}: time goes back from {before} to {time}", path.display())]
-    TimesGoBack {
-        path: PathBuf,
-        element: usize,
-        before: f64,
-        time: f64,
-    },
+    TimesGoBack { path: PathBuf, element: usize, before: f64, time: f64 },
     /// A time of a grid that occurs more than twice.
     #[error(
         "{}: array `time`, element {element}: time {time} is given more than twice, expected once, or twice for a jump",
         path.display()
     )]
-    TimeThrice {
-        path: PathBuf,
-        element: usize,
-        time: f64,
-    },
+    TimeThrice { path: PathBuf, element: usize, time: f64 },
     /// A time that occurs more than twice; twice is a jump.
     #[error(
         "{}{}: time {time} is given more than twice (point {point}), expected once, or twice for a jump",
         path.display(),
         at(*line)
     )]
-    TimeRepeated {
-        path: PathBuf,
-        line: u64,
-        time: f64,
-        point: i64,
-    },
+    TimeRepeated { path: PathBuf, line: u64, time: f64, point: i64 },
     /// A point without a row at a time where others have one.
     #[error(
         "{}: point {point} has no row at time {time}, where point {other} has one; expected every point at every time",
         path.display()
     )]
-    PointMissing {
-        path: PathBuf,
-        point: i64,
-        time: f64,
-        other: i64,
-    },
+    PointMissing { path: PathBuf, point: i64, time: f64, other: i64 },
     /// A point twice at a time that others have once.
     #[error(
         "{}{}: point {point} is given twice at time {time}, where point {other} is given once; expected once, or twice for every point (a jump)",
         path.display(),
         at(*line)
     )]
-    PointTwice {
-        path: PathBuf,
-        line: u64,
-        point: i64,
-        time: f64,
-        other: i64,
-    },
+    PointTwice { path: PathBuf, line: u64, point: i64, time: f64, other: i64 },
     /// The same id twice in the `point` array of a grid.
     #[error("{}: array `point` holds the id {point} twice", path.display())]
     RepeatedId { path: PathBuf, point: i64 },
     /// An area of zero or less.
     #[error("{}{}: area {area} of point {point} at time {time}, expected more than 0", path.display(), at(*line))]
-    Area {
-        path: PathBuf,
-        line: u64,
-        point: i64,
-        time: f64,
-        area: f64,
-    },
+    Area { path: PathBuf, line: u64, point: i64, time: f64, area: f64 },
     /// A normal of length zero.
     #[error("{}{}: normal of length 0 at point {point}, time {time}", path.display(), at(*line))]
-    ZeroNormal {
-        path: PathBuf,
-        line: u64,
-        point: i64,
-        time: f64,
-    },
+    ZeroNormal { path: PathBuf, line: u64, point: i64, time: f64 },
     /// Not an archive, or one that is cut off or damaged.
     #[error("{}: not a readable NPZ archive: {reason}", path.display())]
     Archive { path: PathBuf, reason: String },
     /// A member of the archive that is not an array as documented.
     #[error("{}: array `{name}`: {fault}", path.display())]
-    Array {
-        path: PathBuf,
-        name: String,
-        fault: super::npy::ArrayFault,
-    },
+    Array { path: PathBuf, name: String, fault: super::npy::ArrayFault },
     /// An array whose shape fits neither the times nor the points.
     #[error("{}: array `{name}` has shape {}, expected {expected}", path.display(), shape_text(shape))]
-    Shape {
-        path: PathBuf,
-        name: String,
-        shape: Vec<usize>,
-        expected: String,
-    },
+    Shape { path: PathBuf, name: String, shape: Vec<usize>, expected: String },
     /// More than memory can hold.
     #[error("{}: array `{name}` needs {bytes} bytes, more than this machine gives", path.display())]
-    TooLarge {
-        path: PathBuf,
-        name: String,
-        bytes: u64,
-    },
+    TooLarge { path: PathBuf, name: String, bytes: u64 },
 }
 
 impl HistoryError {
@@ -244,19 +131,11 @@ impl HistoryError {
 }
 
 fn place(line: u64, column: usize) -> String {
-    if line == 0 {
-        String::new()
-    } else {
-        format!(" at line {line}, column {column}")
-    }
+    if line == 0 { String::new() } else { format!(" at line {line}, column {column}") }
 }
 
 fn at(line: u64) -> String {
-    if line == 0 {
-        String::new()
-    } else {
-        format!(": line {line}")
-    }
+    if line == 0 { String::new() } else { format!(": line {line}") }
 }
 
 fn suggestion(nearest: &Option<String>) -> String {
@@ -267,11 +146,7 @@ fn suggestion(nearest: &Option<String>) -> String {
 }
 
 fn list(names: &[String]) -> String {
-    if names.is_empty() {
-        "none".to_string()
-    } else {
-        names.join(", ")
-    }
+    if names.is_empty() { "none".to_string() } else { names.join(", ") }
 }
 
 fn shape_text(shape: &[usize]) -> String {

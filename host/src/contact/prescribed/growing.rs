@@ -65,19 +65,13 @@ impl Growing {
     pub fn finish(self, placement: &Placement) -> ColumnData {
         let points = placement.ids.len();
         let (mut values, time_step, point_step) = match self {
-            Growing::Times(values) if values.iter().all(|v| same(*v, values[0])) => {
-                (vec![values[0]], 0, 0)
-            }
+            Growing::Times(values) if values.iter().all(|v| same(*v, values[0])) => (vec![values[0]], 0, 0),
             Growing::Times(values) => (values, 1, 0),
             Growing::Points(values) => (placement.place_points(values), 0, 1),
             Growing::Rows(values) => (placement.place_rows(values), points, 1),
         };
         values.shrink_to_fit();
-        ColumnData {
-            samples: Samples::Owned(values),
-            time_step,
-            point_step,
-        }
+        ColumnData { samples: Samples::Owned(values), time_step, point_step }
     }
 }
 
@@ -92,20 +86,12 @@ pub(super) fn fold(mut grid: Vec<f64>, times: usize, points: usize) -> ColumnDat
     };
     let row = grid.len() / times;
     let repeats = |a: &[f64]| a.iter().zip(&grid[..row]).all(|(a, b)| same(*a, *b));
-    let time_step = if grid.chunks_exact(row).all(repeats) {
-        0
-    } else {
-        time_step
-    };
+    let time_step = if grid.chunks_exact(row).all(repeats) { 0 } else { time_step };
     if time_step == 0 {
         grid.truncate(row);
         grid.shrink_to_fit();
     }
-    ColumnData {
-        samples: Samples::Owned(grid),
-        time_step,
-        point_step,
-    }
+    ColumnData { samples: Samples::Owned(grid), time_step, point_step }
 }
 
 /// Equal to the bit: a fold must not change the sign of a zero.

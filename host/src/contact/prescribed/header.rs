@@ -52,11 +52,7 @@ impl Header {
     /// # Errors
     /// A file that is missing, not a file, empty, or not readable as CSV or NPZ.
     pub fn read(path: &Path) -> Result<Header, HistoryError> {
-        if is_archive(path)? {
-            npz_file::header(path)
-        } else {
-            csv_file::header(path)
-        }
+        if is_archive(path)? { npz_file::header(path) } else { csv_file::header(path) }
     }
 
     /// Whether the file has a column of that name.
@@ -128,11 +124,7 @@ impl Header {
     }
 
     fn missing(&self, name: &str) -> HistoryError {
-        HistoryError::MissingColumn {
-            path: self.path.clone(),
-            name: name.to_string(),
-            found: self.names.clone(),
-        }
+        HistoryError::MissingColumn { path: self.path.clone(), name: name.to_string(), found: self.names.clone() }
     }
 
     /// Checks that every name is known, by itself or to `needs`, and given once.
@@ -156,9 +148,7 @@ impl Header {
                 || further.clone().any(|f| f == name);
             if !known {
                 let fixed = Column::NAMED.iter().map(|(_, name)| *name);
-                let candidates = fixed
-                    .chain(["time", "point"])
-                    .chain(further.map(String::as_str));
+                let candidates = fixed.chain(["time", "point"]).chain(further.map(String::as_str));
                 return Err(HistoryError::UnknownColumn {
                     path: self.path.clone(),
                     name: name.clone(),
@@ -173,18 +163,11 @@ impl Header {
 
     fn check_groups(&self) -> Result<(), HistoryError> {
         let slips = ["slip_x", "slip_y", "slip_z"];
-        let pairs = ["slip"]
-            .iter()
-            .chain(&slips)
-            .map(|second| ("velocity", *second));
+        let pairs = ["slip"].iter().chain(&slips).map(|second| ("velocity", *second));
         for (first, second) in pairs.chain(slips.map(|second| ("slip", second))) {
             if self.has(first) && self.has(second) {
                 let path = self.path.clone();
-                return Err(HistoryError::Conflict {
-                    path,
-                    first,
-                    second,
-                });
+                return Err(HistoryError::Conflict { path, first, second });
             }
         }
         self.complete(&["nx", "nz"], &["ny"], "nx, ny, nz")?;
@@ -197,12 +180,7 @@ impl Header {
     }
 
     /// Every name of `base` or none; names of `rest` only all together and with `base`.
-    fn complete(
-        &self,
-        base: &[&'static str],
-        rest: &[&'static str],
-        group: &'static str,
-    ) -> Result<(), HistoryError> {
+    fn complete(&self, base: &[&'static str], rest: &[&'static str], group: &'static str) -> Result<(), HistoryError> {
         let any = base.iter().chain(rest).find(|name| self.has(name));
         let Some(present) = any.copied() else {
             return Ok(());
@@ -216,12 +194,9 @@ impl Header {
         };
         match fault {
             None => Ok(()),
-            Some((present, missing)) => Err(HistoryError::PartOfVector {
-                path: self.path.clone(),
-                present,
-                missing,
-                group,
-            }),
+            Some((present, missing)) => {
+                Err(HistoryError::PartOfVector { path: self.path.clone(), present, missing, group })
+            }
         }
     }
 }
@@ -238,10 +213,7 @@ fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<
 pub(super) fn open(path: &Path) -> Result<File, HistoryError> {
     let fault = |source: std::io::Error| match source.kind() {
         std::io::ErrorKind::NotFound => HistoryError::Missing { path: path.into() },
-        _ => HistoryError::Io {
-            path: path.into(),
-            source,
-        },
+        _ => HistoryError::Io { path: path.into(), source },
     };
     let metadata = std::fs::metadata(path).map_err(fault)?;
     if !metadata.is_file() {
@@ -258,15 +230,8 @@ pub(super) fn is_archive(path: &Path) -> Result<bool, HistoryError> {
     let mut start = [0_u8; 4];
     let file = open(path)?;
     let mut head = Vec::with_capacity(4);
-    file.take(4)
-        .read_to_end(&mut head)
-        .map_err(|source| HistoryError::Io {
-            path: path.into(),
-            source,
-        })?;
+    file.take(4).read_to_end(&mut head).map_err(|source| HistoryError::Io { path: path.into(), source })?;
     start[..head.len()].copy_from_slice(&head);
-    let named = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("npz"));
+    let named = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npz"));
     Ok(named || start.starts_with(b"PK\x03\x04") || start.starts_with(b"PK\x05\x06"))
 }

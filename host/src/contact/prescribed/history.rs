@@ -32,11 +32,7 @@ impl PointIds {
     /// Drops a list that only counts.
     pub(super) fn from_list(ids: Vec<i64>) -> PointIds {
         let counts = ids.iter().enumerate().all(|(at, id)| *id == at as i64);
-        if counts {
-            PointIds::Counted(ids.len())
-        } else {
-            PointIds::Listed(ids)
-        }
+        if counts { PointIds::Counted(ids.len()) } else { PointIds::Listed(ids) }
     }
 
     /// Number of points.
@@ -95,10 +91,7 @@ impl History {
             Layout::Csv => csv_file::read(&header, needs)?,
             Layout::NpzLong | Layout::NpzGrid => npz_file::read(&header, needs)?,
         };
-        for column in needs
-            .columns()
-            .filter(|column| header.reads_as_zero(*column))
-        {
+        for column in needs.columns().filter(|column| header.reads_as_zero(*column)) {
             history.columns.insert(column, ColumnData::constant(0.0));
         }
         history.check_signs()?;
@@ -126,11 +119,7 @@ impl History {
     /// The stretches between the rows, jumps included.
     pub fn intervals(&self) -> impl Iterator<Item = Interval> + '_ {
         let pairs = self.times.windows(2).enumerate();
-        pairs.map(|(row, t)| Interval {
-            row,
-            start: t[0],
-            end: t[1],
-        })
+        pairs.map(|(row, t)| Interval { row, start: t[0], end: t[1] })
     }
 
     /// Number of points.
@@ -167,16 +156,8 @@ impl History {
     /// Areas are greater than zero and normals are not zero.
     fn check_signs(&self) -> Result<(), HistoryError> {
         let distinct = |views: &[ColumnView<'_>]| {
-            let rows = if views.iter().all(ColumnView::is_constant_in_time) {
-                1
-            } else {
-                self.times.len()
-            };
-            let points = if views.iter().all(ColumnView::is_uniform) {
-                1
-            } else {
-                self.points()
-            };
+            let rows = if views.iter().all(ColumnView::is_constant_in_time) { 1 } else { self.times.len() };
+            let points = if views.iter().all(ColumnView::is_uniform) { 1 } else { self.points() };
             (rows, points)
         };
         if let Some(area) = self.column(Column::Area) {
@@ -197,10 +178,7 @@ impl History {
                 }
             }
         }
-        let normal: Vec<ColumnView<'_>> = Column::NORMAL
-            .iter()
-            .filter_map(|column| self.column(*column))
-            .collect();
+        let normal: Vec<ColumnView<'_>> = Column::NORMAL.iter().filter_map(|column| self.column(*column)).collect();
         if normal.len() == 3 {
             let (rows, points) = distinct(&normal);
             for k in 0..rows {

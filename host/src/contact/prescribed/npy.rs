@@ -59,25 +59,19 @@ impl ArrayHeader {
     /// Reads the header and leaves the reader at the first element.
     pub fn read(reader: &mut impl Read) -> Result<ArrayHeader, ArrayFault> {
         let mut start = [0_u8; 8];
-        reader
-            .read_exact(&mut start)
-            .map_err(|_| ArrayFault::Magic)?;
+        reader.read_exact(&mut start).map_err(|_| ArrayFault::Magic)?;
         if !start.starts_with(b"\x93NUMPY") {
             return Err(ArrayFault::Magic);
         }
         let (size, length) = match start[6] {
             1 => {
                 let mut size = [0_u8; 2];
-                reader
-                    .read_exact(&mut size)
-                    .map_err(|_| ArrayFault::Magic)?;
+                reader.read_exact(&mut size).map_err(|_| ArrayFault::Magic)?;
                 (2, u64::from(u16::from_le_bytes(size)))
             }
             2 | 3 => {
                 let mut size = [0_u8; 4];
-                reader
-                    .read_exact(&mut size)
-                    .map_err(|_| ArrayFault::Magic)?;
+                reader.read_exact(&mut size).map_err(|_| ArrayFault::Magic)?;
                 (4, u64::from(u32::from_le_bytes(size)))
             }
             other => return Err(ArrayFault::Version(other)),
@@ -96,9 +90,7 @@ impl ArrayHeader {
 
     /// Number of elements, if it can be counted.
     pub fn elements(&self) -> Option<usize> {
-        self.shape
-            .iter()
-            .try_fold(1_usize, |all, n| all.checked_mul(*n))
+        self.shape.iter().try_fold(1_usize, |all, n| all.checked_mul(*n))
     }
 
     /// Whether the elements lie in the order of a C array.
@@ -112,11 +104,7 @@ impl ArrayHeader {
     }
 
     /// Reads the elements in the order in which they lie, as doubles.
-    pub fn each(
-        &self,
-        reader: &mut impl Read,
-        mut take: impl FnMut(f64),
-    ) -> Result<(), ArrayFault> {
+    pub fn each(&self, reader: &mut impl Read, mut take: impl FnMut(f64)) -> Result<(), ArrayFault> {
         let (element, big) = (self.element, self.big_endian);
         if self.is_native_double() {
             return self.each_chunk(reader, |chunk| {
@@ -152,21 +140,14 @@ impl ArrayHeader {
                 let bits = bits(bytes, self.big_endian);
                 match self.element {
                     Element::Unsigned => take(i64::try_from(bits).ok(), bits as f64),
-                    _ => take(
-                        Some(signed(bits, bytes.len())),
-                        signed(bits, bytes.len()) as f64,
-                    ),
+                    _ => take(Some(signed(bits, bytes.len())), signed(bits, bytes.len()) as f64),
                 }
             }
         })
     }
 
     /// Reads all elements in pieces of whole elements, then the end, where the checksum is tested.
-    fn each_chunk(
-        &self,
-        reader: &mut impl Read,
-        mut take: impl FnMut(&[u8]),
-    ) -> Result<(), ArrayFault> {
+    fn each_chunk(&self, reader: &mut impl Read, mut take: impl FnMut(&[u8])) -> Result<(), ArrayFault> {
         let expected = self.elements().unwrap_or(usize::MAX) as u64 * self.width as u64;
         let mut buffer = vec![0_u8; 1 << 16];
         let (mut held, mut found) = (0, 0_u64);
@@ -195,11 +176,7 @@ impl ArrayHeader {
 /// The bytes of an element as an unsigned number.
 fn bits(bytes: &[u8], big_endian: bool) -> u64 {
     let join = |all: u64, byte: &u8| all << 8 | u64::from(*byte);
-    if big_endian {
-        bytes.iter().fold(0, join)
-    } else {
-        bytes.iter().rev().fold(0, join)
-    }
+    if big_endian { bytes.iter().fold(0, join) } else { bytes.iter().rev().fold(0, join) }
 }
 
 /// Extends the sign of an integer of `width` bytes.
@@ -241,18 +218,9 @@ fn parse_dictionary(text: &str) -> Result<ArrayHeader, ArrayFault> {
         flag if flag.starts_with("False") => false,
         _ => return Err(ArrayFault::Header("fortran_order")),
     };
-    let shape = value_of(text, "shape")
-        .and_then(parse_shape)
-        .ok_or(ArrayFault::Header("shape"))?;
+    let shape = value_of(text, "shape").and_then(parse_shape).ok_or(ArrayFault::Header("shape"))?;
     let native_big = order == b'=' && cfg!(target_endian = "big");
-    Ok(ArrayHeader {
-        element,
-        width,
-        big_endian: order == b'>' || native_big,
-        fortran,
-        shape,
-        offset: 0,
-    })
+    Ok(ArrayHeader { element, width, big_endian: order == b'>' || native_big, fortran, shape, offset: 0 })
 }
 
 /// The text behind a key of the dictionary.
@@ -271,8 +239,5 @@ fn parse_shape(text: &str) -> Option<Vec<usize>> {
     if inner.is_empty() {
         return Some(Vec::new());
     }
-    inner
-        .split(',')
-        .map(|n| n.trim().trim_end_matches('L').parse().ok())
-        .collect()
+    inner.split(',').map(|n| n.trim().trim_end_matches('L').parse().ok()).collect()
 }

@@ -37,18 +37,11 @@ struct Archive<'a> {
 }
 
 fn archive_fault(path: &Path, fault: &ZipError) -> HistoryError {
-    HistoryError::Archive {
-        path: path.into(),
-        reason: fault.to_string(),
-    }
+    HistoryError::Archive { path: path.into(), reason: fault.to_string() }
 }
 
 fn array_fault(path: &Path, name: &str, fault: ArrayFault) -> HistoryError {
-    HistoryError::Array {
-        path: path.into(),
-        name: name.to_string(),
-        fault,
-    }
+    HistoryError::Array { path: path.into(), name: name.to_string(), fault }
 }
 
 impl Archive<'_> {
@@ -58,10 +51,7 @@ impl Archive<'_> {
         let mut members = Vec::with_capacity(zip.len());
         for index in 0..zip.len() {
             let mut entry = zip.by_index(index).map_err(|e| archive_fault(path, &e))?;
-            let name = entry
-                .name()
-                .map_err(|e| archive_fault(path, &e))?
-                .into_owned();
+            let name = entry.name().map_err(|e| archive_fault(path, &e))?.into_owned();
             let name = name.strip_suffix(".npy").unwrap_or(&name).to_string();
             let (size, packed) = (entry.size(), entry.compressed_size());
             let stored = entry.compression() == zip::CompressionMethod::Stored && size == packed;
@@ -71,34 +61,18 @@ impl Archive<'_> {
             let bytes = array.elements().and_then(|n| n.checked_mul(array.width));
             let expected = bytes.map_or(u64::MAX, |bytes| bytes as u64);
             if found != expected {
-                return Err(array_fault(
-                    path,
-                    &name,
-                    ArrayFault::Length { found, expected },
-                ));
+                return Err(array_fault(path, &name, ArrayFault::Length { found, expected }));
             }
             let elements = array.elements().unwrap_or(0);
             let in_place = array.is_native_double() && array.in_c_order();
-            let place = start
-                .filter(|_| in_place)
-                .and_then(|at| at.checked_add(array.offset));
-            members.push(Member {
-                index,
-                name,
-                array,
-                elements,
-                place,
-                packed,
-            });
+            let place = start.filter(|_| in_place).and_then(|at| at.checked_add(array.offset));
+            members.push(Member { index, name, array, elements, place, packed });
         }
         Ok(Archive { path, zip, members })
     }
 
     fn extent(&self) -> Result<Extent, HistoryError> {
-        let shapes = self
-            .members
-            .iter()
-            .map(|m| (m.name.as_str(), m.array.shape.as_slice()));
+        let shapes = self.members.iter().map(|m| (m.name.as_str(), m.array.shape.as_slice()));
         extent(self.path, &shapes.collect::<Vec<_>>())
     }
 
@@ -109,10 +83,7 @@ impl Archive<'_> {
     /// Opens a member behind its header.
     fn elements_of(&mut self, at: usize) -> Result<impl Read + '_, HistoryError> {
         let (path, member) = (self.path, &self.members[at]);
-        let mut entry = self
-            .zip
-            .by_index(member.index)
-            .map_err(|e| archive_fault(path, &e))?;
+        let mut entry = self.zip.by_index(member.index).map_err(|e| archive_fault(path, &e))?;
         ArrayHeader::read(&mut entry).map_err(|e| array_fault(path, &member.name, e))?;
         Ok(entry)
     }
@@ -120,10 +91,7 @@ impl Archive<'_> {
     /// Reads every element once and hands it on; stops at the end with the first that is not finite.
     fn each(&mut self, at: usize, mut take: impl FnMut(f64)) -> Result<(), HistoryError> {
         let path = self.path.to_path_buf();
-        let (name, array) = (
-            self.members[at].name.clone(),
-            self.members[at].array.clone(),
-        );
+        let (name, array) = (self.members[at].name.clone(), self.members[at].array.clone());
         let (mut element, mut bad) = (0, None);
         let mut reader = self.elements_of(at)?;
         let read = array.each(&mut reader, |value| {
@@ -136,12 +104,7 @@ impl Archive<'_> {
         read.map_err(|e| array_fault(&path, &name, e))?;
         match bad {
             None => Ok(()),
-            Some((element, value)) => Err(HistoryError::NotFiniteElement {
-                path,
-                name,
-                element,
-                value,
-            }),
+            Some((element, value)) => Err(HistoryError::NotFiniteElement { path, name, element, value }),
         }
     }
 
@@ -150,26 +113,20 @@ impl Archive<'_> {
         let member = &self.members[at];
         // Deflate packs at most 1032 to 1: more elements than that are not there.
         let most = member.packed.saturating_mul(1032) / member.array.width as u64;
-        let room = member
-            .elements
-            .min(usize::try_from(most).unwrap_or(usize::MAX));
+        let room = member.elements.min(usize::try_from(most).unwrap_or(usize::MAX));
         let (array, elements) = (member.array.clone(), member.elements);
         let mut values = Vec::new();
-        values
-            .try_reserve_exact(room)
-            .map_err(|_| HistoryError::TooLarge {
-                path: self.path.into(),
-                name: self.members[at].name.clone(),
-                bytes: 8 * room as u64,
-            })?;
+        values.try_reserve_exact(room).map_err(|_| HistoryError::TooLarge {
+            path: self.path.into(),
+            name: self.members[at].name.clone(),
+            bytes: 8 * room as u64,
+        })?;
         self.each(at, |value| values.push(value))?;
         if array.in_c_order() || array.shape.len() != 2 {
             return Ok(values);
         }
         let (rows, columns) = (array.shape[0], array.shape[1]);
-        Ok((0..elements)
-            .map(|at| values[at % columns * rows + at / columns])
-            .collect())
+        Ok((0..elements).map(|at| values[at % columns * rows + at / columns]).collect())
     }
 
     /// The values of the array `point`.
@@ -186,20 +143,14 @@ impl Archive<'_> {
         read.map_err(|e| array_fault(&path, "point", e))?;
         match bad {
             None => Ok(ids),
-            Some((element, value)) => Err(HistoryError::NotAnIdElement {
-                path,
-                element,
-                value,
-            }),
+            Some((element, value)) => Err(HistoryError::NotAnIdElement { path, element, value }),
         }
     }
 
     /// The members that are needed and the columns they stand for.
     fn wanted(&self, needs: &Needs) -> Vec<(usize, Column)> {
         let members = self.members.iter().enumerate();
-        members
-            .filter_map(|(at, member)| Some((at, needs.wanted(&member.name)?)))
-            .collect()
+        members.filter_map(|(at, member)| Some((at, needs.wanted(&member.name)?))).collect()
     }
 
     fn read_long(mut self, needs: &Needs) -> Result<History, HistoryError> {
@@ -224,12 +175,7 @@ impl Archive<'_> {
             columns.insert(column, data);
         }
         let point_ids = placement.ids;
-        Ok(History {
-            path: path.into(),
-            times: placement.times,
-            point_ids,
-            columns,
-        })
+        Ok(History { path: path.into(), times: placement.times, point_ids, columns })
     }
 
     fn read_grid(mut self, extent: Extent, needs: &Needs) -> Result<History, HistoryError> {
@@ -245,10 +191,7 @@ impl Archive<'_> {
                 let ids = self.ids(at)?;
                 let mut known = HashSet::with_capacity(ids.len());
                 if let Some(&point) = ids.iter().find(|id| !known.insert(**id)) {
-                    return Err(HistoryError::RepeatedId {
-                        path: path.into(),
-                        point,
-                    });
+                    return Err(HistoryError::RepeatedId { path: path.into(), point });
                 }
                 PointIds::from_list(ids)
             }
@@ -269,10 +212,9 @@ impl Archive<'_> {
                 Some(place) => {
                     let map = match &map {
                         Some(map) => map,
-                        None => map.insert(map_file(path).map_err(|source| HistoryError::Io {
-                            path: path.into(),
-                            source,
-                        })?),
+                        None => {
+                            map.insert(map_file(path).map_err(|source| HistoryError::Io { path: path.into(), source })?)
+                        }
                     };
                     Samples::mapped(map, place, elements)
                 }
@@ -281,29 +223,14 @@ impl Archive<'_> {
                 // Checked through the archive, piece by piece, so that the map stays untouched.
                 Some(samples) => {
                     self.each(at, |_| {})?;
-                    ColumnData {
-                        samples,
-                        time_step,
-                        point_step,
-                    }
+                    ColumnData { samples, time_step, point_step }
                 }
-                None if time_step > 0 && point_step > 0 => {
-                    fold(self.values(at)?, extent.times, extent.points)
-                }
-                None => ColumnData {
-                    samples: Samples::Owned(self.values(at)?),
-                    time_step,
-                    point_step,
-                },
+                None if time_step > 0 && point_step > 0 => fold(self.values(at)?, extent.times, extent.points),
+                None => ColumnData { samples: Samples::Owned(self.values(at)?), time_step, point_step },
             };
             columns.insert(column, data);
         }
-        Ok(History {
-            path: path.into(),
-            times,
-            point_ids,
-            columns,
-        })
+        Ok(History { path: path.into(), times, point_ids, columns })
     }
 }
 
@@ -312,19 +239,10 @@ fn check_times(path: &Path, times: &[f64]) -> Result<(), HistoryError> {
     for (at, pair) in times.windows(2).enumerate() {
         let (before, time, path, element) = (pair[0], pair[1], path.to_path_buf(), at + 1);
         if time < before {
-            return Err(HistoryError::TimesGoBack {
-                path,
-                element,
-                before,
-                time,
-            });
+            return Err(HistoryError::TimesGoBack { path, element, before, time });
         }
         if time == before && times.get(at + 2) == Some(&time) {
-            return Err(HistoryError::TimeThrice {
-                path,
-                element: at + 2,
-                time,
-            });
+            return Err(HistoryError::TimeThrice { path, element: at + 2, time });
         }
     }
     Ok(())

@@ -30,38 +30,22 @@ pub(super) fn extent(path: &Path, arrays: &[Shaped<'_>]) -> Result<Extent, Histo
         });
     };
     let times = one_index(path, "time", time)?;
-    let ids = shape_of("point")
-        .map(|shape| one_index(path, "point", shape))
-        .transpose()?;
+    let ids = shape_of("point").map(|shape| one_index(path, "point", shape)).transpose()?;
     let long = ids == Some(times)
-        && arrays
-            .iter()
-            .all(|(_, shape)| shape.is_empty() || *shape == [times])
-        && arrays
-            .iter()
-            .any(|(name, shape)| !matches!(*name, "time" | "point") && *shape == [times]);
+        && arrays.iter().all(|(_, shape)| shape.is_empty() || *shape == [times])
+        && arrays.iter().any(|(name, shape)| !matches!(*name, "time" | "point") && *shape == [times]);
     if long && times > 1 {
-        return Ok(Extent {
-            layout: Layout::NpzLong,
-            times,
-            points: 0,
-        });
+        return Ok(Extent { layout: Layout::NpzLong, times, points: 0 });
     }
     let two_indices = arrays.iter().filter(|(_, shape)| shape.len() == 2);
     let widest = two_indices.map(|(_, shape)| shape[1]).max();
-    let others = arrays
-        .iter()
-        .filter(|(_, shape)| shape.len() == 1 && shape[0] != times);
+    let others = arrays.iter().filter(|(_, shape)| shape.len() == 1 && shape[0] != times);
     let longest = others.map(|(_, shape)| shape[0]).max();
     let points = ids.or(widest.filter(|n| *n != 1)).or(longest).unwrap_or(1);
     if times == 0 || points == 0 {
         return Err(HistoryError::NoRows { path: path.into() });
     }
-    Ok(Extent {
-        layout: Layout::NpzGrid,
-        times,
-        points,
-    })
+    Ok(Extent { layout: Layout::NpzGrid, times, points })
 }
 
 fn one_index(path: &Path, name: &str, shape: &[usize]) -> Result<usize, HistoryError> {
@@ -78,11 +62,7 @@ fn one_index(path: &Path, name: &str, shape: &[usize]) -> Result<usize, HistoryE
 }
 
 /// Steps over times and points of an array in the grid form.
-pub(super) fn steps(
-    path: &Path,
-    array: Shaped<'_>,
-    extent: Extent,
-) -> Result<(usize, usize), HistoryError> {
+pub(super) fn steps(path: &Path, array: Shaped<'_>, extent: Extent) -> Result<(usize, usize), HistoryError> {
     let (times, points) = (extent.times, extent.points);
     let fault = |expected: String| HistoryError::Shape {
         path: path.into(),
@@ -101,8 +81,6 @@ pub(super) fn steps(
             let point_step = usize::from(n > 1);
             Ok((if t > 1 { n } else { 0 }, point_step))
         }
-        _ => Err(fault(format!(
-            "({times}, {points}), ({times},), ({points},) or ()"
-        ))),
+        _ => Err(fault(format!("({times}, {points}), ({times},), ({points},) or ()"))),
     }
 }

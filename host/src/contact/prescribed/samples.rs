@@ -1,8 +1,5 @@
 //! The values of one column: owned, or mapped from the file, behind one view per time row.
-#![allow(
-    unsafe_code,
-    reason = "an array that lies in the file as doubles is read in place, through a memory map"
-)]
+#![allow(unsafe_code, reason = "an array that lies in the file as doubles is read in place, through a memory map")]
 
 use memmap2::Mmap;
 use std::fmt;
@@ -34,11 +31,7 @@ impl Samples {
         let offset = usize::try_from(offset).ok()?;
         let end = len.checked_mul(8)?.checked_add(offset)?;
         let fits = end <= map.len() && (map.as_ptr() as usize + offset).is_multiple_of(8);
-        (fits && cfg!(target_endian = "little")).then(|| Samples::Mapped {
-            map: Arc::clone(map),
-            offset,
-            len,
-        })
+        (fits && cfg!(target_endian = "little")).then(|| Samples::Mapped { map: Arc::clone(map), offset, len })
     }
 
     /// All values.
@@ -97,11 +90,7 @@ pub struct ColumnData {
 impl ColumnData {
     /// One value at every time and point.
     pub fn constant(value: f64) -> ColumnData {
-        ColumnData {
-            samples: Samples::Owned(vec![value]),
-            time_step: 0,
-            point_step: 0,
-        }
+        ColumnData { samples: Samples::Owned(vec![value]), time_step: 0, point_step: 0 }
     }
 
     /// Bytes of memory that the values take (a map counts as what it can make resident).
@@ -140,12 +129,7 @@ impl RowView<'_> {
 
 impl<'a> ColumnView<'a> {
     pub(super) fn new(data: &'a ColumnData, points: usize) -> ColumnView<'a> {
-        ColumnView {
-            values: data.samples.as_slice(),
-            time_step: data.time_step,
-            point_step: data.point_step,
-            points,
-        }
+        ColumnView { values: data.samples.as_slice(), time_step: data.time_step, point_step: data.point_step, points }
     }
 
     /// Whether every point has the same value at any one time.
@@ -177,14 +161,7 @@ impl<'a> ColumnView<'a> {
     ///
     /// `out` has one element per point of `range`. A value that is equal in both rows comes out
     /// unchanged, and so do both ends: a + theta (b - a), and b itself at theta = 1.
-    pub fn interpolate(
-        &self,
-        k: usize,
-        k1: usize,
-        theta: f64,
-        range: Range<usize>,
-        out: &mut [f64],
-    ) {
+    pub fn interpolate(&self, k: usize, k1: usize, theta: f64, range: Range<usize>, out: &mut [f64]) {
         match (self.row(k), self.row(k1)) {
             (RowView::PerPoint(a), RowView::PerPoint(b)) => {
                 let (a, b) = (&a[range.clone()], &b[range]);

@@ -93,8 +93,7 @@ impl<'a> BatchBuilder<'a> {
         self.inputs.resize(law.inputs.len(), Values::Absent);
         let mut view = blank_view(&self.numbers, self.points, law);
         // One allocation each, of the largest size that can be needed: pointers into it must not move.
-        let real =
-            3 * (Field::ALL.len() + law.constants.len() + law.inputs.len()) + law.state.len();
+        let real = 3 * (Field::ALL.len() + law.constants.len() + law.inputs.len()) + law.state.len();
         let mut numbers = Vec::with_capacity(real);
         let mut indices = Vec::with_capacity(Field::ALL.len());
         for field in law.fields().iter() {
@@ -148,30 +147,18 @@ impl<'a> BatchBuilder<'a> {
             _indices: indices,
             borrowed: PhantomData,
         };
-        Ok(Batch {
-            store: Arc::new(store),
-            first: 0,
-            points: self.points,
-        })
+        Ok(Batch { store: Arc::new(store), first: 0, points: self.points })
     }
 
     fn count(&self, what: &'static str, found: usize, expected: usize) -> Result<(), BatchError> {
         if found == expected {
             return Ok(());
         }
-        Err(BatchError::Count {
-            law: self.descriptor.name.clone(),
-            what,
-            found,
-            expected,
-        })
+        Err(BatchError::Count { law: self.descriptor.name.clone(), what, found, expected })
     }
 
     fn missing(&self, field: &str) -> BatchError {
-        BatchError::Missing {
-            law: self.descriptor.name.clone(),
-            field: field.to_owned(),
-        }
+        BatchError::Missing { law: self.descriptor.name.clone(), field: field.to_owned() }
     }
 
     /// A default is in SI units, a batch in the scene's.
@@ -190,16 +177,10 @@ impl<'a> BatchBuilder<'a> {
         let (found, expected) = match field.shape() {
             Shape::Index if real => ("column of reals", "column of integers"),
             Shape::Scalar | Shape::Vector if index => ("column of integers", "column of reals"),
-            Shape::Scalar if matches!(self.fields[field as usize], Values::UniformVector(_)) => {
-                ("vector", "scalar")
-            }
+            Shape::Scalar if matches!(self.fields[field as usize], Values::UniformVector(_)) => ("vector", "scalar"),
             _ => return Ok(()),
         };
-        Err(BatchError::Kind {
-            field: field.name().to_owned(),
-            found,
-            expected,
-        })
+        Err(BatchError::Kind { field: field.name().to_owned(), found, expected })
     }
 
     fn column(
@@ -212,101 +193,55 @@ impl<'a> BatchBuilder<'a> {
         let start = numbers.len();
         match values {
             Values::Absent => {
-                return Ok(abi::Column {
-                    ptr: std::ptr::null(),
-                    step: 0,
-                });
+                return Ok(abi::Column { ptr: std::ptr::null(), step: 0 });
             }
             Values::Uniform(value) => numbers.extend(std::iter::repeat_n(value, width)),
             Values::UniformVector(vector) if width == 3 => numbers.extend(vector),
             Values::UniformVector(_) => {
-                return Err(BatchError::Kind {
-                    field: name.to_owned(),
-                    found: "vector",
-                    expected: "scalar",
-                });
+                return Err(BatchError::Kind { field: name.to_owned(), found: "vector", expected: "scalar" });
             }
             Values::PerPoint(data) => {
                 let expected = self.points * width;
                 self.exact(name, data.len(), expected)?;
-                return Ok(abi::Column {
-                    ptr: data.as_ptr(),
-                    step: width as i64,
-                });
+                return Ok(abi::Column { ptr: data.as_ptr(), step: width as i64 });
             }
             Values::Strided { data, step } => {
                 self.reaches(name, data.len(), step, width)?;
-                return Ok(abi::Column {
-                    ptr: data.as_ptr(),
-                    step: step as i64,
-                });
+                return Ok(abi::Column { ptr: data.as_ptr(), step: step as i64 });
             }
         }
-        Ok(abi::Column {
-            ptr: numbers[start..].as_ptr(),
-            step: 0,
-        })
+        Ok(abi::Column { ptr: numbers[start..].as_ptr(), step: 0 })
     }
 
-    fn index_column(
-        &self,
-        field: Field,
-        numbers: &mut Vec<i64>,
-    ) -> Result<abi::IndexColumn, BatchError> {
+    fn index_column(&self, field: Field, numbers: &mut Vec<i64>) -> Result<abi::IndexColumn, BatchError> {
         let start = numbers.len();
         match self.indices[field as usize] {
             Indices::Absent => {
-                return Ok(abi::IndexColumn {
-                    ptr: std::ptr::null(),
-                    step: 0,
-                });
+                return Ok(abi::IndexColumn { ptr: std::ptr::null(), step: 0 });
             }
             Indices::Uniform(value) => numbers.push(value),
             Indices::PerPoint(data) => {
                 self.exact(field.name(), data.len(), self.points)?;
-                return Ok(abi::IndexColumn {
-                    ptr: data.as_ptr(),
-                    step: 1,
-                });
+                return Ok(abi::IndexColumn { ptr: data.as_ptr(), step: 1 });
             }
             Indices::Strided { data, step } => {
                 self.reaches(field.name(), data.len(), step, 1)?;
-                return Ok(abi::IndexColumn {
-                    ptr: data.as_ptr(),
-                    step: step as i64,
-                });
+                return Ok(abi::IndexColumn { ptr: data.as_ptr(), step: step as i64 });
             }
         }
-        Ok(abi::IndexColumn {
-            ptr: numbers[start..].as_ptr(),
-            step: 0,
-        })
+        Ok(abi::IndexColumn { ptr: numbers[start..].as_ptr(), step: 0 })
     }
 
     fn exact(&self, name: &str, found: usize, expected: usize) -> Result<(), BatchError> {
         if found == expected {
             return Ok(());
         }
-        Err(BatchError::Length {
-            field: name.to_owned(),
-            found,
-            expected,
-        })
+        Err(BatchError::Length { field: name.to_owned(), found, expected })
     }
 
-    fn reaches(
-        &self,
-        name: &str,
-        found: usize,
-        step: usize,
-        width: usize,
-    ) -> Result<(), BatchError> {
+    fn reaches(&self, name: &str, found: usize, step: usize, width: usize) -> Result<(), BatchError> {
         if step < width {
-            return Err(BatchError::Step {
-                field: name.to_owned(),
-                step,
-                width,
-            });
+            return Err(BatchError::Step { field: name.to_owned(), step, width });
         }
         let expected = match self.points.checked_sub(1) {
             None => 0,
@@ -315,10 +250,6 @@ impl<'a> BatchBuilder<'a> {
         if found >= expected {
             return Ok(());
         }
-        Err(BatchError::Length {
-            field: name.to_owned(),
-            found,
-            expected,
-        })
+        Err(BatchError::Length { field: name.to_owned(), found, expected })
     }
 }

@@ -6,14 +6,8 @@ use super::super::descriptor::LawDescriptor;
 use super::super::fields::{Field, Shape};
 use super::super::values::CallNumbers;
 
-const ABSENT: abi::Column = abi::Column {
-    ptr: std::ptr::null(),
-    step: 0,
-};
-const NO_INDEX: abi::IndexColumn = abi::IndexColumn {
-    ptr: std::ptr::null(),
-    step: 0,
-};
+const ABSENT: abi::Column = abi::Column { ptr: std::ptr::null(), step: 0 };
+const NO_INDEX: abi::IndexColumn = abi::IndexColumn { ptr: std::ptr::null(), step: 0 };
 
 /// A view with the numbers of the call and no columns.
 pub(super) fn blank_view(numbers: &CallNumbers, points: usize, law: &LawDescriptor) -> abi::View {
@@ -92,10 +86,7 @@ pub(in crate::law) fn column_of(view: &mut abi::View, field: Field) -> Option<&m
 }
 
 /// The column of an integer field.
-pub(in crate::law) fn index_column_of(
-    view: &mut abi::View,
-    field: Field,
-) -> Option<&mut abi::IndexColumn> {
+pub(in crate::law) fn index_column_of(view: &mut abi::View, field: Field) -> Option<&mut abi::IndexColumn> {
     match field {
         Field::ContactState => Some(&mut view.contact_state),
         Field::PointId => Some(&mut view.point_id),
@@ -106,21 +97,14 @@ pub(in crate::law) fn index_column_of(
 
 /// The column that begins `points` points later.
 pub(super) fn behind(column: abi::Column, points: usize) -> abi::Column {
-    abi::Column {
-        ptr: column
-            .ptr
-            .wrapping_offset(points as isize * column.step as isize),
-        step: column.step,
-    }
+    abi::Column { ptr: column.ptr.wrapping_offset(points as isize * column.step as isize), step: column.step }
 }
 
 /// Lets the column of `field` begin `points` points later; one that is absent has step 0 and stays.
 pub(super) fn advance(view: &mut abi::View, field: Field, points: usize) {
     if field.shape() == Shape::Index {
         if let Some(column) = index_column_of(view, field) {
-            column.ptr = column
-                .ptr
-                .wrapping_offset(points as isize * column.step as isize);
+            column.ptr = column.ptr.wrapping_offset(points as isize * column.step as isize);
         }
     } else if let Some(column) = column_of(view, field) {
         *column = behind(*column, points);

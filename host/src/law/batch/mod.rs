@@ -133,14 +133,8 @@ impl Cursor<'_> {
         self.view.state = behind(self.store.view.state, first);
         if !self.store.columns_are_uniform {
             self.columns.clear();
-            self.columns.extend(
-                self.store
-                    .columns
-                    .iter()
-                    .map(|column| behind(*column, first)),
-            );
-            (self.view.constants, self.view.inputs) =
-                halves(&self.columns, self.view.constant_count);
+            self.columns.extend(self.store.columns.iter().map(|column| behind(*column, first)));
+            (self.view.constants, self.view.inputs) = halves(&self.columns, self.view.constant_count);
         }
         &self.view
     }
@@ -183,16 +177,8 @@ impl<'a> Batch<'a> {
     /// # Panics
     /// If the range ends behind the last point or before its own start, as indexing a slice does.
     pub fn range(&self, range: Range<usize>) -> Batch<'a> {
-        assert!(
-            range.start <= range.end && range.end <= self.points,
-            "{range:?} of {} points",
-            self.points
-        );
-        Batch {
-            store: Arc::clone(&self.store),
-            first: self.first + range.start,
-            points: range.len(),
-        }
+        assert!(range.start <= range.end && range.end <= self.points, "{range:?} of {} points", self.points);
+        Batch { store: Arc::clone(&self.store), first: self.first + range.start, points: range.len() }
     }
 
     /// The ABI's view of this batch, if it is the whole one and nothing is wanted but the increment: no copy is made.
@@ -205,10 +191,7 @@ impl<'a> Batch<'a> {
     /// Begins to go through this batch with views of its ranges.
     pub(super) fn cursor(&self, request: i64) -> Cursor<'_> {
         Cursor {
-            view: abi::View {
-                request,
-                ..self.store.view
-            },
+            view: abi::View { request, ..self.store.view },
             columns: Vec::new(),
             store: &self.store,
             first: self.first,
@@ -228,11 +211,9 @@ impl<'a> Batch<'a> {
         let mut values = Vec::new();
         for field in law.fields().iter() {
             let found = if let Some(column) = index_column_of(&mut view, field) {
-                self.integer(*column, index)
-                    .map(|number| vec![number as f64])
+                self.integer(*column, index).map(|number| vec![number as f64])
             } else {
-                column_of(&mut view, field)
-                    .and_then(|column| self.reals(*column, index, field.shape().width()))
+                column_of(&mut view, field).and_then(|column| self.reals(*column, index, field.shape().width()))
             };
             if let Some(found) = found {
                 values.push(NamedValues::new(field.name(), &found));
@@ -244,25 +225,18 @@ impl<'a> Batch<'a> {
                 values.push(NamedValues::new(&quantity.name, &found));
             }
         }
-        let state = self
-            .reals(view.state, index, law.state.len())
-            .unwrap_or_default();
+        let state = self.reals(view.state, index, law.state.len()).unwrap_or_default();
         for (variable, value) in law.state.iter().zip(state) {
             values.push(NamedValues::new(&variable.name, &[value]));
         }
-        PointInputs {
-            point: index,
-            values,
-        }
+        PointInputs { point: index, values }
     }
 
     fn reals(&self, column: abi::Column, index: usize, width: usize) -> Option<Vec<f64>> {
         if column.ptr.is_null() {
             return None;
         }
-        let first = column
-            .ptr
-            .wrapping_offset(index as isize * column.step as isize);
+        let first = column.ptr.wrapping_offset(index as isize * column.step as isize);
         // SAFETY: the builder checked that the column reaches over all points, and `index` is one of them; the numbers
         // are borrowed or owned by the store.
         Some(unsafe { std::slice::from_raw_parts(first, width) }.to_vec())
@@ -273,10 +247,6 @@ impl<'a> Batch<'a> {
             return None;
         }
         // SAFETY: as for `reals`.
-        Some(unsafe {
-            *column
-                .ptr
-                .wrapping_offset(index as isize * column.step as isize)
-        })
+        Some(unsafe { *column.ptr.wrapping_offset(index as isize * column.step as isize) })
     }
 }

@@ -18,13 +18,7 @@ pub struct Outputs<'a> {
 impl<'a> Outputs<'a> {
     /// Asks for the wear increment alone.
     pub fn new(increment: &'a mut [f64]) -> Self {
-        Self {
-            increment,
-            direction: None,
-            state: None,
-            status: None,
-            d_pressure: None,
-        }
+        Self { increment, direction: None, state: None, status: None, d_pressure: None }
     }
 
     /// The same arrays, borrowed for a shorter time.
@@ -52,13 +46,7 @@ impl<'a> Outputs<'a> {
         let (status, statuses) = cut(self.status, points);
         let (d_pressure, d_pressures) = cut(self.d_pressure, points);
         (
-            Outputs {
-                increment,
-                direction,
-                state,
-                status,
-                d_pressure,
-            },
+            Outputs { increment, direction, state, status, d_pressure },
             Outputs {
                 increment: increments,
                 direction: directions,

@@ -20,14 +20,11 @@ impl Batch<'_> {
         for field in law.fields().iter() {
             advance(&mut view, field, self.first);
             let found = if field.shape() == Shape::Index {
-                index_column_of(&mut view, field)
-                    .map(|column| (column.ptr.cast::<u64>(), column.step))
+                index_column_of(&mut view, field).map(|column| (column.ptr.cast::<u64>(), column.step))
             } else {
                 column_of(&mut view, field).map(|column| (column.ptr.cast::<u64>(), column.step))
             };
-            spans.push(
-                found.and_then(|(first, step)| self.span(first, step, field.shape().width())),
-            );
+            spans.push(found.and_then(|(first, step)| self.span(first, step, field.shape().width())));
         }
         for column in &self.store.columns {
             let column = behind(*column, self.first);
@@ -45,10 +42,7 @@ impl Batch<'_> {
             return None;
         }
         let step = step as usize;
-        let length = self
-            .points()
-            .checked_sub(1)
-            .map_or(0, |steps| steps * step + width);
+        let length = self.points().checked_sub(1).map_or(0, |steps| steps * step + width);
         // SAFETY: the builder checked that the column reaches over its points; doubles and 64-bit integers have the size
         // and alignment of u64, any bits are a u64, and the arrays are borrowed as shared as long as the batch lives.
         let words = unsafe { std::slice::from_raw_parts(first, length) };

@@ -14,18 +14,10 @@ pub(super) struct Log {
 
 impl Log {
     /// Runs a command to its end; its standard error is kept as it is, its standard output is given back.
-    pub(super) fn run(
-        &mut self,
-        mut command: Command,
-        language: Language,
-    ) -> Result<Vec<u8>, BuildError> {
+    pub(super) fn run(&mut self, mut command: Command, language: Language) -> Result<Vec<u8>, BuildError> {
         let line = as_typed(&command);
         self.commands.push(line.clone());
-        let Output {
-            status,
-            stdout,
-            stderr,
-        } = command.stdin(Stdio::null()).output().map_err(|source| {
+        let Output { status, stdout, stderr } = command.stdin(Stdio::null()).output().map_err(|source| {
             let command = command.get_program().to_string_lossy().into_owned();
             match source.kind() {
                 std::io::ErrorKind::NotFound => BuildError::MissingCompiler { language, command },
@@ -37,11 +29,7 @@ impl Log {
             return Ok(stdout);
         }
         let messages = std::mem::take(&mut self.messages);
-        Err(BuildError::CompilerFailed {
-            command: line,
-            exit_code: status.code(),
-            messages,
-        })
+        Err(BuildError::CompilerFailed { command: line, exit_code: status.code(), messages })
     }
 }
 

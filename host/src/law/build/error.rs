@@ -19,9 +19,7 @@ pub enum BuildError {
         source: std::io::Error,
     },
     /// A name whose ending says nothing.
-    #[error(
-        "source `{path}` has an unknown ending, expected {ENDINGS}, or a Rust crate (a folder with Cargo.toml)"
-    )]
+    #[error("source `{path}` has an unknown ending, expected {ENDINGS}, or a Rust crate (a folder with Cargo.toml)")]
     UnknownEnding {
         /// The source.
         path: PathBuf,
@@ -95,9 +93,7 @@ pub enum BuildError {
         source: std::io::Error,
     },
     /// A crate that is no shared library.
-    #[error(
-        "the Rust crate `{manifest}` gives no shared library, expected [lib] crate-type = [\"cdylib\"] in it"
-    )]
+    #[error("the Rust crate `{manifest}` gives no shared library, expected [lib] crate-type = [\"cdylib\"] in it")]
     NoCdylib {
         /// The crate's manifest.
         manifest: PathBuf,

@@ -34,18 +34,11 @@ pub fn write_plugin_api(folder: &Path) -> io::Result<()> {
 /// # Errors
 /// The carried manifests are not of the expected form, which a test rules out.
 pub fn plugin_api_manifest() -> io::Result<String> {
-    let own = PLUGIN_API
-        .iter()
-        .find(|(name, _)| *name == "Cargo.toml")
-        .map_or("", |(_, text)| text);
-    concrete_manifest(own, WORKSPACE_MANIFEST)
-        .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
+    let own = PLUGIN_API.iter().find(|(name, _)| *name == "Cargo.toml").map_or("", |(_, text)| text);
+    concrete_manifest(own, WORKSPACE_MANIFEST).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
 }
 
-fn write_files<'a>(
-    folder: &Path,
-    files: impl Iterator<Item = (&'a str, &'a str)>,
-) -> io::Result<()> {
+fn write_files<'a>(folder: &Path, files: impl Iterator<Item = (&'a str, &'a str)>) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     for (name, text) in files {
         let path = folder.join(name);
@@ -104,13 +97,9 @@ fn concrete_manifest(own: &str, workspace: &str) -> Result<String, toml::de::Err
         features.retain(|name, parts| {
             let of_optional = |part: &Value| {
                 let part = part.as_str().unwrap_or_default().trim_start_matches("dep:");
-                optional
-                    .iter()
-                    .any(|name| part.split(['/', '?']).next() == Some(name))
+                optional.iter().any(|name| part.split(['/', '?']).next() == Some(name))
             };
-            let keep = !parts
-                .as_array()
-                .is_some_and(|parts| parts.iter().any(of_optional));
+            let keep = !parts.as_array().is_some_and(|parts| parts.iter().any(of_optional));
             if !keep {
                 left_out.push(name.to_string());
             }
@@ -126,25 +115,12 @@ fn allow_cfg_of(manifest: &mut Table, features: &[String]) {
     if features.is_empty() {
         return;
     }
-    let names = features
-        .iter()
-        .map(|name| format!("{name:?}"))
-        .collect::<Vec<_>>()
-        .join(", ");
-    let check = Value::Array(vec![Value::String(format!(
-        "cfg(feature, values({names}))"
-    ))]);
-    let level = Table::from_iter([
-        ("level".to_owned(), Value::String("warn".into())),
-        ("check-cfg".to_owned(), check),
-    ]);
-    let lints = manifest
-        .entry("lints")
-        .or_insert_with(|| Value::Table(Table::new()));
+    let names = features.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+    let check = Value::Array(vec![Value::String(format!("cfg(feature, values({names}))"))]);
+    let level = Table::from_iter([("level".to_owned(), Value::String("warn".into())), ("check-cfg".to_owned(), check)]);
+    let lints = manifest.entry("lints").or_insert_with(|| Value::Table(Table::new()));
     if let Value::Table(lints) = lints
-        && let Value::Table(rust) = lints
-            .entry("rust")
-            .or_insert_with(|| Value::Table(Table::new()))
+        && let Value::Table(rust) = lints.entry("rust").or_insert_with(|| Value::Table(Table::new()))
     {
         rust.insert("unexpected_cfgs".into(), Value::Table(level));
     }
@@ -152,9 +128,7 @@ fn allow_cfg_of(manifest: &mut Table, features: &[String]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        CARRIED, PLUGIN_API, concrete_manifest, plugin_api_manifest, write_into, write_plugin_api,
-    };
+    use super::{CARRIED, PLUGIN_API, concrete_manifest, plugin_api_manifest, write_into, write_plugin_api};
     use std::path::Path;
 
     #[test]
@@ -168,22 +142,10 @@ mod tests {
         let manifest: toml::Table = toml::from_str(&text).unwrap();
         assert_eq!(manifest["package"]["version"].as_str(), Some("0.3.0"));
         assert_eq!(manifest["dependencies"]["c"].as_str(), Some("2"));
-        assert!(
-            manifest["dependencies"].get("b").is_none()
-                && manifest["features"].get("layout").is_none()
-        );
-        assert!(
-            manifest["features"].get("kept").is_some()
-                && manifest["package"].get("readme").is_none()
-        );
-        assert_eq!(
-            manifest["lints"]["rust"]["unsafe_code"].as_str(),
-            Some("deny")
-        );
-        assert!(
-            text.contains("values(\\\"layout\\\")") || text.contains("values(\"layout\")"),
-            "{text}"
-        );
+        assert!(manifest["dependencies"].get("b").is_none() && manifest["features"].get("layout").is_none());
+        assert!(manifest["features"].get("kept").is_some() && manifest["package"].get("readme").is_none());
+        assert_eq!(manifest["lints"]["rust"]["unsafe_code"].as_str(), Some("deny"));
+        assert!(text.contains("values(\\\"layout\\\")") || text.contains("values(\"layout\")"), "{text}");
         assert!(!text.contains("workspace"), "{text}");
     }
 
@@ -191,18 +153,10 @@ mod tests {
     fn what_is_carried_is_what_the_folders_hold() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         for (name, text) in CARRIED {
-            assert_eq!(
-                std::fs::read_to_string(root.join("include").join(name)).unwrap(),
-                *text,
-                "{name}"
-            );
+            assert_eq!(std::fs::read_to_string(root.join("include").join(name)).unwrap(), *text, "{name}");
         }
         for (name, text) in PLUGIN_API {
-            assert_eq!(
-                std::fs::read_to_string(root.join("plugin-api").join(name)).unwrap(),
-                *text,
-                "{name}"
-            );
+            assert_eq!(std::fs::read_to_string(root.join("plugin-api").join(name)).unwrap(), *text, "{name}");
         }
         assert!(PLUGIN_API.iter().any(|(name, _)| *name == "src/lib.rs"));
         assert!(!plugin_api_manifest().unwrap().contains("workspace"));
@@ -213,10 +167,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         write_into(&folder.path().join("include")).unwrap();
         for (name, text) in CARRIED {
-            assert_eq!(
-                std::fs::read_to_string(folder.path().join("include").join(name)).unwrap(),
-                *text
-            );
+            assert_eq!(std::fs::read_to_string(folder.path().join("include").join(name)).unwrap(), *text);
         }
         let api = folder.path().join("api");
         write_plugin_api(&api).unwrap();

@@ -70,10 +70,8 @@ pub(super) fn sort(sources: &[PathBuf]) -> Result<Sources, BuildError> {
     }
     let mut native = Vec::new();
     for path in sources {
-        let metadata = std::fs::metadata(path).map_err(|source| BuildError::SourceUnreadable {
-            path: path.clone(),
-            source,
-        })?;
+        let metadata =
+            std::fs::metadata(path).map_err(|source| BuildError::SourceUnreadable { path: path.clone(), source })?;
         let manifest = if metadata.is_dir() {
             let manifest = path.join("Cargo.toml");
             if !manifest.is_file() {

@@ -78,21 +78,12 @@ pub fn build(request: &BuildRequest) -> Result<Built, BuildError> {
         language::Sources::RustCrate(manifest) => cargo::build(request, &manifest)?,
         language::Sources::Native(sources) => native::build(request, &sources)?,
     };
-    Ok(Built {
-        library,
-        commands: log.commands,
-        messages: log.messages,
-        seconds: start.elapsed().as_secs_f64(),
-    })
+    Ok(Built { library, commands: log.commands, messages: log.messages, seconds: start.elapsed().as_secs_f64() })
 }
 
 /// The file name of a library of this system: `liblaw.so` for `law`.
 fn library_file_name(stem: &str) -> String {
-    format!(
-        "{}{stem}{}",
-        std::env::consts::DLL_PREFIX,
-        std::env::consts::DLL_SUFFIX
-    )
+    format!("{}{stem}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)
 }
 
 /// A folder beside the output, to make the library in, so that a rename brings it whole into its place.
@@ -103,25 +94,13 @@ struct Aside {
 
 impl Aside {
     fn new(output: &Path) -> Result<Self, BuildError> {
-        let fail = |source| BuildError::OutputNotWritable {
-            path: output.to_path_buf(),
-            source,
-        };
+        let fail = |source| BuildError::OutputNotWritable { path: output.to_path_buf(), source };
         if output.is_dir() {
             return Err(fail(std::io::Error::from(std::io::ErrorKind::IsADirectory)));
         }
-        let parent = output
-            .parent()
-            .filter(|parent| !parent.as_os_str().is_empty())
-            .unwrap_or(Path::new("."));
-        let folder = tempfile::Builder::new()
-            .prefix(".wearlaw-build-")
-            .tempdir_in(parent)
-            .map_err(fail)?;
-        Ok(Self {
-            folder,
-            output: output.to_path_buf(),
-        })
+        let parent = output.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = tempfile::Builder::new().prefix(".wearlaw-build-").tempdir_in(parent).map_err(fail)?;
+        Ok(Self { folder, output: output.to_path_buf() })
     }
 
     /// Where to make the library.
@@ -133,10 +112,7 @@ impl Aside {
     fn finish(self) -> Result<PathBuf, BuildError> {
         match std::fs::rename(self.library(), &self.output) {
             Ok(()) => Ok(self.output),
-            Err(source) => Err(BuildError::OutputNotWritable {
-                path: self.output,
-                source,
-            }),
+            Err(source) => Err(BuildError::OutputNotWritable { path: self.output, source }),
         }
     }
 }

@@ -9,33 +9,21 @@ use super::{Aside, BuildError, BuildRequest, Language, headers, library_file_nam
 
 /// For every compile: no fused multiply-add that only some machines have, exports as the source says, and no promises
 /// about `errno` and traps, which would keep gcc from vectorising a law that has a branch.
-const COMPILE_FLAGS: [&str; 4] =
-    ["-ffp-contract=off", "-fvisibility=default", "-fno-math-errno", "-fno-trapping-math"];
+const COMPILE_FLAGS: [&str; 4] = ["-ffp-contract=off", "-fvisibility=default", "-fno-math-errno", "-fno-trapping-math"];
 
 /// For Fortran: without the first, gfortran takes the vector library's `pow` in full vectors and the scalar one in what
 /// is left over, so that bits depend on the batch. The second is for the many arguments that one form of procedure has.
 const FORTRAN_FLAGS: [&str; 2] = ["-nostdinc", "-Wno-unused-dummy-argument"];
 
 /// Compiles each source with its language's compiler and links the objects.
-pub(super) fn build(
-    request: &BuildRequest,
-    sources: &[(PathBuf, Language)],
-) -> Result<(PathBuf, Log), BuildError> {
-    let output = request
-        .output
-        .clone()
-        .unwrap_or_else(|| default_output(&sources[0].0));
+pub(super) fn build(request: &BuildRequest, sources: &[(PathBuf, Language)]) -> Result<(PathBuf, Log), BuildError> {
+    let output = request.output.clone().unwrap_or_else(|| default_output(&sources[0].0));
     let aside = Aside::new(&output)?;
     let temporary = tempfile::Builder::new().prefix("wearlaw-build-").tempdir();
-    let temporary = temporary.map_err(|source| BuildError::TemporaryFiles {
-        path: std::env::temp_dir(),
-        source,
-    })?;
+    let temporary = temporary.map_err(|source| BuildError::TemporaryFiles { path: std::env::temp_dir(), source })?;
     let work = temporary.path();
-    headers::write_into(&work.join("include")).map_err(|source| BuildError::TemporaryFiles {
-        path: work.to_path_buf(),
-        source,
-    })?;
+    headers::write_into(&work.join("include"))
+        .map_err(|source| BuildError::TemporaryFiles { path: work.to_path_buf(), source })?;
 
     let has = |language| sources.iter().any(|(_, other)| *other == language);
     let toolchain = Toolchain { request, work };
@@ -43,10 +31,7 @@ pub(super) fn build(
     let mut objects = Vec::new();
     if has(Language::Fortran) {
         // The module has to be compiled before the sources that use it.
-        for (name, _) in headers::CARRIED
-            .iter()
-            .filter(|(name, _)| name.ends_with(".f90"))
-        {
+        for (name, _) in headers::CARRIED.iter().filter(|(name, _)| name.ends_with(".f90")) {
             let source = work.join("include").join(name);
             objects.push(toolchain.compile(&mut log, &source, Language::Fortran, objects.len())?);
         }
@@ -54,23 +39,14 @@ pub(super) fn build(
     for (source, language) in sources {
         objects.push(toolchain.compile(&mut log, source, *language, objects.len())?);
     }
-    let driver = [Language::Fortran, Language::Cpp]
-        .into_iter()
-        .find(|&l| has(l))
-        .unwrap_or(Language::C);
+    let driver = [Language::Fortran, Language::Cpp].into_iter().find(|&l| has(l)).unwrap_or(Language::C);
     let mut link = toolchain.driver(driver)?;
-    link.arg("-shared")
-        .arg("-o")
-        .arg(aside.library())
-        .args(&objects);
+    link.arg("-shared").arg("-o").arg(aside.library()).args(&objects);
     if driver == Language::Fortran && has(Language::Cpp) {
         link.arg("-lstdc++");
     }
     // A sanitizer's runtime is left undefined on purpose by clang.
-    let sanitized = request
-        .extra_flags
-        .iter()
-        .any(|flag| flag.to_string_lossy().starts_with("-fsanitize"));
+    let sanitized = request.extra_flags.iter().any(|flag| flag.to_string_lossy().starts_with("-fsanitize"));
     if cfg!(target_os = "linux") && !sanitized {
         // A missing symbol is better found here than by whoever loads the law.
         link.arg("-Wl,--no-undefined");
@@ -87,13 +63,7 @@ struct Toolchain<'a> {
 
 impl Toolchain<'_> {
     /// Compiles one source to an object in the temporary folder.
-    fn compile(
-        &self,
-        log: &mut Log,
-        source: &Path,
-        language: Language,
-        index: usize,
-    ) -> Result<PathBuf, BuildError> {
+    fn compile(&self, log: &mut Log, source: &Path, language: Language, index: usize) -> Result<PathBuf, BuildError> {
         let object = self.work.join(format!("{index}.o"));
         let mut command = self.driver(language)?;
         command.args(COMPILE_FLAGS);
@@ -105,11 +75,7 @@ impl Toolchain<'_> {
             command.arg("-J").arg(self.work).args(FORTRAN_FLAGS);
         }
         command.args(&self.request.extra_flags);
-        command
-            .arg("-c")
-            .arg(not_a_flag(source))
-            .arg("-o")
-            .arg(&object);
+        command.arg("-c").arg(not_a_flag(source)).arg("-o").arg(&object);
         log.run(command, language)?;
         Ok(object)
     }
@@ -117,12 +83,7 @@ impl Toolchain<'_> {
     /// The language's compiler with the flags that compiling and linking share.
     fn driver(&self, language: Language) -> Result<Command, BuildError> {
         if language == Language::Fortran {
-            let named = self
-                .request
-                .compilers
-                .fortran
-                .clone()
-                .or_else(|| from_environment("FC"));
+            let named = self.request.compilers.fortran.clone().or_else(|| from_environment("FC"));
             let mut command = command_of(&named.unwrap_or_else(|| "gfortran".into()));
             command.args(["-O3", "-fPIC", "-Wall"]);
             if let Some(flags) = from_environment("FFLAGS") {
@@ -133,21 +94,9 @@ impl Toolchain<'_> {
         let target = env!("WEARLAW_TARGET");
         let mut build = cc::Build::new();
         // Nothing of this is known outside of a build script, so everything is said.
-        build
-            .target(target)
-            .host(target)
-            .opt_level(3)
-            .pic(true)
-            .debug(false)
-            .cpp(language == Language::Cpp);
-        build
-            .cargo_metadata(false)
-            .cargo_warnings(false)
-            .cargo_output(false);
-        build
-            .warnings(true)
-            .extra_warnings(false)
-            .out_dir(self.work);
+        build.target(target).host(target).opt_level(3).pic(true).debug(false).cpp(language == Language::Cpp);
+        build.cargo_metadata(false).cargo_warnings(false).cargo_output(false);
+        build.warnings(true).extra_warnings(false).out_dir(self.work);
         let named = match language {
             Language::Cpp => &self.request.compilers.cpp,
             _ => &self.request.compilers.c,
@@ -158,9 +107,7 @@ impl Toolchain<'_> {
             own_flags = command.get_args().map(OsString::from).collect();
             build.compiler(command.get_program());
         }
-        let tool = build
-            .try_get_compiler()
-            .map_err(|source| BuildError::Unusable { language, source })?;
+        let tool = build.try_get_compiler().map_err(|source| BuildError::Unusable { language, source })?;
         let mut command = tool.to_command();
         command.args(own_flags);
         Ok(command)
@@ -185,17 +132,10 @@ fn from_environment(name: &str) -> Option<OsString> {
 
 /// A path that no compiler takes for a flag.
 fn not_a_flag(path: &Path) -> PathBuf {
-    if path.to_string_lossy().starts_with('-') {
-        Path::new(".").join(path)
-    } else {
-        path.to_path_buf()
-    }
+    if path.to_string_lossy().starts_with('-') { Path::new(".").join(path) } else { path.to_path_buf() }
 }
 
 fn default_output(source: &Path) -> PathBuf {
-    let stem = source
-        .file_stem()
-        .map(|stem| stem.to_string_lossy().into_owned())
-        .unwrap_or_default();
+    let stem = source.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     PathBuf::from(library_file_name(&stem))
 }

@@ -109,10 +109,7 @@ pub enum DescribeError {
         inputs: i64,
     },
     /// `describe` stopped early or failed.
-    #[error(
-        "`describe` answered {status} for {kind} {index}, expected {}",
-        abi::WL_OK
-    )]
+    #[error("`describe` answered {status} for {kind} {index}, expected {}", abi::WL_OK)]
     Describe {
         /// Constant, state variable or input.
         kind: &'static str,
@@ -180,9 +177,7 @@ pub enum DescribeError {
         index: i64,
     },
     /// A pressure degree held by a constant that does not exist.
-    #[error(
-        "the pressure degree is held by constant {index}, expected -1 or an index below {count}"
-    )]
+    #[error("the pressure degree is held by constant {index}, expected -1 or an index below {count}")]
     DegreeIndex {
         /// The index.
         index: i64,

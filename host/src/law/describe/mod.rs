@@ -17,16 +17,9 @@ use super::fields::{Claims, Field, Fields, Flags, OutputItem, OutputItems};
 pub(super) type Ask<'f> = &'f mut dyn FnMut(i32, i64) -> (i32, abi::Quantity);
 
 /// Validates the table of one law; `ask` is its `describe` function, if it has one.
-pub(super) fn describe(
-    table: &abi::LawTable,
-    mut ask: Option<Ask<'_>>,
-) -> Result<LawDescriptor, DescribeError> {
+pub(super) fn describe(table: &abi::LawTable, mut ask: Option<Ask<'_>>) -> Result<LawDescriptor, DescribeError> {
     let name = text(&table.name, "the law's name")?;
-    if name.is_empty()
-        || !name
-            .bytes()
-            .all(|byte| byte.is_ascii_alphanumeric() || b"-_".contains(&byte))
-    {
+    if name.is_empty() || !name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"-_".contains(&byte)) {
         return Err(DescribeError::Name {
             what: "the law's name".to_owned(),
             found: name,
@@ -42,11 +35,7 @@ pub(super) fn describe(
     }
     let (constants, state, inputs) = (table.constant_count, table.state_count, table.input_count);
     if ask.is_none() && constants + state + inputs > 0 {
-        return Err(DescribeError::NoDescribe {
-            constants,
-            state,
-            inputs,
-        });
+        return Err(DescribeError::NoDescribe { constants, state, inputs });
     }
     let constants = quantities(&mut ask, abi::WL_KIND_CONSTANT, "constant", constants)?;
     let mut closing = constants.iter().filter(|constant| constant.closes_units);
@@ -60,13 +49,8 @@ pub(super) fn describe(
     }
     let state = quantities(&mut ask, abi::WL_KIND_STATE, "state variable", state)?;
     let inputs = quantities(&mut ask, abi::WL_KIND_INPUT, "input", inputs)?;
-    if let Some(input) = inputs
-        .iter()
-        .find(|input| Field::from_name(&input.name).is_some())
-    {
-        return Err(DescribeError::FieldName {
-            name: input.name.clone(),
-        });
+    if let Some(input) = inputs.iter().find(|input| Field::from_name(&input.name).is_some()) {
+        return Err(DescribeError::FieldName { name: input.name.clone() });
     }
     Ok(LawDescriptor {
         name,
@@ -103,10 +87,7 @@ fn masks_and_counts(table: &abi::LawTable) -> Result<(), DescribeError> {
         ("`state_count`", table.state_count),
         ("`input_count`", table.input_count),
     ];
-    if let Some((what, found)) = counts
-        .into_iter()
-        .find(|(_, count)| !(0..=MOST_QUANTITIES).contains(count))
-    {
+    if let Some((what, found)) = counts.into_iter().find(|(_, count)| !(0..=MOST_QUANTITIES).contains(count)) {
         return Err(DescribeError::Count { what, found });
     }
     Ok(())
@@ -124,12 +105,7 @@ fn unknown_field(table: &abi::LawTable, ask: &mut Option<Ask<'_>>) -> Option<Des
         (status == abi::WL_OK && !name.is_empty()).then_some(name)
     });
     let (host_minor, law_minor) = (i64::from(abi::WL_ABI_MINOR), table.abi_minor);
-    Some(DescribeError::UnknownField {
-        name,
-        bit,
-        host_minor,
-        law_minor,
-    })
+    Some(DescribeError::UnknownField { name, bit, host_minor, law_minor })
 }
 
 fn pressure_degree(table: &abi::LawTable) -> Result<Degree, DescribeError> {
@@ -164,39 +140,21 @@ fn quantities(
     for index in 0..count {
         let (status, raw) = ask(kind, index);
         if status != abi::WL_OK {
-            return Err(DescribeError::Describe {
-                kind: word,
-                index,
-                status,
-            });
+            return Err(DescribeError::Describe { kind: word, index, status });
         }
         let quantity = quantity(&raw, word, index)?;
         if found.iter().any(|other| other.name == quantity.name) {
-            return Err(DescribeError::Duplicate {
-                kind: word,
-                name: quantity.name,
-            });
+            return Err(DescribeError::Duplicate { kind: word, name: quantity.name });
         }
         found.push(quantity);
     }
     Ok(found)
 }
 
-fn quantity(
-    raw: &abi::Quantity,
-    kind: &'static str,
-    index: i64,
-) -> Result<Quantity, DescribeError> {
+fn quantity(raw: &abi::Quantity, kind: &'static str, index: i64) -> Result<Quantity, DescribeError> {
     let name = text(&raw.name, &format!("the name of {kind} {index}"))?;
-    let starts = name
-        .bytes()
-        .next()
-        .is_some_and(|byte| byte.is_ascii_alphabetic());
-    if !starts
-        || !name
-            .bytes()
-            .all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
-    {
+    let starts = name.bytes().next().is_some_and(|byte| byte.is_ascii_alphabetic());
+    if !starts || !name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') {
         return Err(DescribeError::Name {
             what: format!("the name of {kind} {index}"),
             found: name,
@@ -218,11 +176,7 @@ fn quantity(
         }
     }
     if raw.default_value.is_infinite() {
-        return Err(number(
-            "the default",
-            raw.default_value,
-            "a finite number, or NaN for none",
-        ));
+        return Err(number("the default", raw.default_value, "a finite number, or NaN for none"));
     }
     let quantity = Quantity {
         summary: text(&raw.summary, &format!("the summary of {kind} `{name}`"))?,
@@ -248,18 +202,10 @@ fn quantity(
         && !quantity.allows(default)
     {
         let interval = quantity.interval();
-        return Err(DescribeError::Default {
-            kind,
-            name: quantity.name,
-            default,
-            interval,
-        });
+        return Err(DescribeError::Default { kind, name: quantity.name, default, interval });
     }
     if quantity.closes_units && kind != "constant" {
-        return Err(DescribeError::ClosesUnits {
-            kind,
-            name: quantity.name,
-        });
+        return Err(DescribeError::ClosesUnits { kind, name: quantity.name });
     }
     Ok(quantity)
 }
@@ -267,20 +213,16 @@ fn quantity(
 fn text(bytes: &[c_char], what: &str) -> Result<String, DescribeError> {
     let bytes: Vec<u8> = bytes.iter().map(|byte| byte.to_ne_bytes()[0]).collect();
     let Some(end) = bytes.iter().position(|byte| *byte == 0) else {
-        return Err(DescribeError::Unterminated {
-            what: what.to_owned(),
-            size: bytes.len(),
-        });
+        return Err(DescribeError::Unterminated { what: what.to_owned(), size: bytes.len() });
     };
     match std::str::from_utf8(&bytes[..end]) {
         Err(_) => Err(DescribeError::NotUtf8 {
             what: what.to_owned(),
             found: String::from_utf8_lossy(&bytes[..end]).into_owned(),
         }),
-        Ok(found) if found.chars().any(char::is_control) => Err(DescribeError::NotOneLine {
-            what: what.to_owned(),
-            found: found.to_owned(),
-        }),
+        Ok(found) if found.chars().any(char::is_control) => {
+            Err(DescribeError::NotOneLine { what: what.to_owned(), found: found.to_owned() })
+        }
         Ok(found) => Ok(found.to_owned()),
     }
 }

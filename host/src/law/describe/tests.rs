@@ -84,21 +84,9 @@ fn assert_words(said: &str, words: &str) {
     assert!(!said.contains('\n'), "{said}");
 }
 
-refused!(
-    an_untouched_table_is_accepted,
-    table | _table | (),
-    "accepted"
-);
-refused!(
-    empty_name,
-    table | table | table.name[0] = 0,
-    "the law's name is \"\", expected letters"
-);
-refused!(
-    name_with_a_blank,
-    table | table | table.name = chars("two words"),
-    "\"two words\""
-);
+refused!(an_untouched_table_is_accepted, table | _table | (), "accepted");
+refused!(empty_name, table | table | table.name[0] = 0, "the law's name is \"\", expected letters");
+refused!(name_with_a_blank, table | table | table.name = chars("two words"), "\"two words\"");
 refused!(
     name_without_end,
     table | table | table.name = [65; 64],
@@ -112,36 +100,12 @@ refused!(
     },
     "the law's summary is not UTF-8"
 );
-refused!(
-    summary_of_two_lines,
-    table | table | table.summary = chars("a\nb"),
-    "not one line of text: \"a\\nb\""
-);
-refused!(
-    negative_count,
-    table | table | table.state_count = -3,
-    "`state_count` is -3, expected 0 to 4096"
-);
-refused!(
-    absurd_count,
-    table | table | table.constant_count = 1 << 40,
-    "`constant_count` is 1099511627776"
-);
-refused!(
-    count_beyond_the_described,
-    table | table | table.constant_count = 3,
-    "`describe` answered -1 for constant 2"
-);
-refused!(
-    negative_mask,
-    table | table | table.claims = i64::MIN,
-    "`claims` is negative"
-);
-refused!(
-    no_evaluate,
-    table | table | table.evaluate = None,
-    "no `evaluate` function"
-);
+refused!(summary_of_two_lines, table | table | table.summary = chars("a\nb"), "not one line of text: \"a\\nb\"");
+refused!(negative_count, table | table | table.state_count = -3, "`state_count` is -3, expected 0 to 4096");
+refused!(absurd_count, table | table | table.constant_count = 1 << 40, "`constant_count` is 1099511627776");
+refused!(count_beyond_the_described, table | table | table.constant_count = 3, "`describe` answered -1 for constant 2");
+refused!(negative_mask, table | table | table.claims = i64::MIN, "`claims` is negative");
+refused!(no_evaluate, table | table | table.evaluate = None, "no `evaluate` function");
 refused!(
     no_describe,
     table | table | table.describe = None,
@@ -152,26 +116,10 @@ refused!(
     table | table | table.pressure_degree_constant = 2,
     "held by constant 2, expected -1 or an index below 2"
 );
-refused!(
-    degree_far_below,
-    table | table | table.pressure_degree_constant = -2,
-    "held by constant -2"
-);
-refused!(
-    two_degrees,
-    table | table | table.pressure_degree = 1.0,
-    "claimed twice: 1, and by constant 1"
-);
-refused!(
-    state_never_written,
-    table | table | table.state_count = 1,
-    "1 state variables, but does not write `state`"
-);
-refused!(
-    unknown_field_without_name,
-    table | table | table.reads |= 1 << 40,
-    "of bit 40, which it does not name"
-);
+refused!(degree_far_below, table | table | table.pressure_degree_constant = -2, "held by constant -2");
+refused!(two_degrees, table | table | table.pressure_degree = 1.0, "claimed twice: 1, and by constant 1");
+refused!(state_never_written, table | table | table.state_count = 1, "1 state variables, but does not write `state`");
+refused!(unknown_field_without_name, table | table | table.reads |= 1 << 40, "of bit 40, which it does not name");
 refused!(duplicate_names, quantity 1 |quantity| quantity.name = chars("K"), "two constants are called `K`");
 refused!(name_begins_with_a_digit, quantity 0 |quantity| quantity.name = chars("1K"), "the name of constant 0 is \"1K\"");
 refused!(nan_bound, quantity 0 |quantity| quantity.minimum = f64::NAN, "the minimum of constant `K` is NaN");
@@ -209,10 +157,7 @@ fn two_constants_that_close_the_units_are_refused() {
             quantity.flags = abi::WL_QUANTITY_CLOSES_UNITS;
         }
     }
-    assert_words(
-        &refusal::<Both>(),
-        "constants `K` and `H` both close the units",
-    );
+    assert_words(&refusal::<Both>(), "constants `K` and `H` both close the units");
 }
 
 #[test]
@@ -225,20 +170,9 @@ fn bits_of_a_newer_law_that_a_host_may_pass_over_are_dropped() {
             table.writes |= 1 << 33;
         }
     }
-    let plugin = Plugin::from_entry(Arc::new(InMemory::<Broken<Newer>>::new()))
-        .expect("it only uses the field");
+    let plugin = Plugin::from_entry(Arc::new(InMemory::<Broken<Newer>>::new())).expect("it only uses the field");
     let law = plugin.laws()[0].descriptor();
-    assert_eq!(
-        (
-            law.uses.unknown(),
-            law.claims.unknown(),
-            law.writes.unknown()
-        ),
-        (0, 0, 0)
-    );
+    assert_eq!((law.uses.unknown(), law.claims.unknown(), law.writes.unknown()), (0, 0, 0));
     let json = serde_json::to_string(law).expect("a description is JSON");
-    assert_eq!(
-        &serde_json::from_str::<LawDescriptor>(&json).expect("its own text"),
-        law
-    );
+    assert_eq!(&serde_json::from_str::<LawDescriptor>(&json).expect("its own text"), law);
 }

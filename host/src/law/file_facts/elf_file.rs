@@ -56,15 +56,8 @@ impl ElfFacts {
     pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Self, FileFactsError> {
         let path_buf = || path.to_path_buf();
         let found = bytes.len() as u64;
-        let truncated = |expected: u64| FileFactsError::Truncated {
-            path: path_buf(),
-            found,
-            expected,
-        };
-        let damaged = |what| FileFactsError::Damaged {
-            path: path_buf(),
-            what,
-        };
+        let truncated = |expected: u64| FileFactsError::Truncated { path: path_buf(), found, expected };
+        let damaged = |what| FileFactsError::Damaged { path: path_buf(), what };
         // Identification and machine stand at the same place in every class.
         if found < 20 {
             return Err(truncated(64));
@@ -83,20 +76,13 @@ impl ElfFacts {
         let os_abi = os_abi_name(bytes[7]);
         // glibc takes these two and refuses the rest.
         if !matches!(bytes[7], 0 | 3) {
-            return Err(FileFactsError::OtherSystem {
-                path: path_buf(),
-                found: os_abi,
-            });
+            return Err(FileFactsError::OtherSystem { path: path_buf(), found: os_abi });
         }
-        let header = Header::parse(bytes)
-            .map_err(|_| damaged("its ELF header is not of a known version"))?;
+        let header = Header::parse(bytes).map_err(|_| damaged("its ELF header is not of a known version"))?;
         let endian = LittleEndian;
         let expected = described_size(header, bytes);
         let e_type = header.e_type(endian);
-        let not_a_library = |found| FileFactsError::NotALibrary {
-            path: path_buf(),
-            found,
-        };
+        let not_a_library = |found| FileFactsError::NotALibrary { path: path_buf(), found };
         if e_type == elf::ET_REL {
             return Err(not_a_library(LookAlike::ObjectFile));
         } else if e_type == elf::ET_EXEC {
@@ -148,16 +134,12 @@ impl ElfFacts {
         }
         self.exported_symbols += 1;
         let kind = symbol.st_type();
-        let is_code =
-            kind == elf::STT_FUNC || kind == elf::STT_GNU_IFUNC || kind == elf::STT_NOTYPE;
+        let is_code = kind == elf::STT_FUNC || kind == elf::STT_GNU_IFUNC || kind == elf::STT_NOTYPE;
         if name == LAYOUT_SYMBOL {
             self.has_layout = true;
         } else if name == ENTRY_SYMBOL && is_code {
             self.has_entry = true;
-        } else if let Some(major) = name
-            .strip_prefix("wearlaw_entry_")
-            .and_then(|n| n.parse().ok())
-        {
+        } else if let Some(major) = name.strip_prefix("wearlaw_entry_").and_then(|n| n.parse().ok()) {
             if major == MAJOR_VERSION {
                 self.near_miss = Some(name.to_owned());
             } else {
@@ -179,60 +161,35 @@ struct Dynamic<'a> {
 
 impl<'a> Dynamic<'a> {
     fn find(header: &'a Header, bytes: &'a [u8]) -> Result<Self, &'static str> {
-        let segments = header
-            .program_headers(LittleEndian, bytes)
-            .map_err(|_| "its program headers are unreadable")?;
+        let segments = header.program_headers(LittleEndian, bytes).map_err(|_| "its program headers are unreadable")?;
         let entries = segments
             .iter()
             .find_map(|segment| segment.dynamic(LittleEndian, bytes).transpose())
             .ok_or("it has no dynamic segment")?
             .map_err(|_| "its dynamic segment lies outside the file")?;
-        let mut dynamic = Self {
-            header,
-            bytes,
-            entries,
-            strings: &[],
-        };
-        let strings = dynamic
-            .value(elf::DT_STRTAB)
-            .and_then(|address| dynamic.at_address(address));
+        let mut dynamic = Self { header, bytes, entries, strings: &[] };
+        let strings = dynamic.value(elf::DT_STRTAB).and_then(|address| dynamic.at_address(address));
         let strings = strings.ok_or("its dynamic string table lies outside the file")?;
-        let size = dynamic
-            .value(elf::DT_STRSZ)
-            .and_then(|size| usize::try_from(size).ok())
-            .unwrap_or(strings.len());
-        dynamic.strings = strings
-            .get(..size)
-            .ok_or("its dynamic string table lies outside the file")?;
+        let size = dynamic.value(elf::DT_STRSZ).and_then(|size| usize::try_from(size).ok()).unwrap_or(strings.len());
+        dynamic.strings = strings.get(..size).ok_or("its dynamic string table lies outside the file")?;
         Ok(dynamic)
     }
 
     fn iter(&self) -> impl Iterator<Item = (elf::DynamicTag, u64)> + '_ {
-        let pairs = self
-            .entries
-            .iter()
-            .map(|entry| (entry.tag(LittleEndian), entry.val(LittleEndian)));
+        let pairs = self.entries.iter().map(|entry| (entry.tag(LittleEndian), entry.val(LittleEndian)));
         pairs.take_while(|(tag, _)| *tag != elf::DT_NULL)
     }
 
     fn value(&self, wanted: elf::DynamicTag) -> Option<u64> {
-        self.iter()
-            .find(|(tag, _)| *tag == wanted)
-            .map(|(_, value)| value)
+        self.iter().find(|(tag, _)| *tag == wanted).map(|(_, value)| value)
     }
 
     fn strings_of(&self, wanted: elf::DynamicTag) -> Vec<String> {
-        self.iter()
-            .filter(|(tag, _)| *tag == wanted)
-            .map(|(_, value)| self.string(value))
-            .collect()
+        self.iter().filter(|(tag, _)| *tag == wanted).map(|(_, value)| self.string(value)).collect()
     }
 
     fn string(&self, offset: u64) -> String {
-        let rest = usize::try_from(offset)
-            .ok()
-            .and_then(|offset| self.strings.get(offset..))
-            .unwrap_or(&[]);
+        let rest = usize::try_from(offset).ok().and_then(|offset| self.strings.get(offset..)).unwrap_or(&[]);
         let text = rest.split(|&byte| byte == 0).next().unwrap_or(&[]);
         String::from_utf8_lossy(text).into_owned()
     }
@@ -240,23 +197,16 @@ impl<'a> Dynamic<'a> {
     /// The linker refuses to load what is marked as a position-independent program.
     fn is_program(&self) -> bool {
         const DF_1_PIE: u64 = 0x0800_0000;
-        self.value(elf::DT_FLAGS_1)
-            .is_some_and(|flags| flags & DF_1_PIE != 0)
+        self.value(elf::DT_FLAGS_1).is_some_and(|flags| flags & DF_1_PIE != 0)
     }
 
     /// The file's bytes from a virtual address to the end of the segment that holds it.
     fn at_address(&self, address: u64) -> Option<&'a [u8]> {
         let segments = self.header.program_headers(LittleEndian, self.bytes).ok()?;
-        segments
-            .iter()
-            .filter(|segment| segment.p_type(LittleEndian) == elf::PT_LOAD)
-            .find_map(|segment| {
-                let skip = address.checked_sub(segment.p_vaddr(LittleEndian))?;
-                segment
-                    .data(LittleEndian, self.bytes)
-                    .ok()?
-                    .get(usize::try_from(skip).ok()?..)
-            })
+        segments.iter().filter(|segment| segment.p_type(LittleEndian) == elf::PT_LOAD).find_map(|segment| {
+            let skip = address.checked_sub(segment.p_vaddr(LittleEndian))?;
+            segment.data(LittleEndian, self.bytes).ok()?.get(usize::try_from(skip).ok()?..)
+        })
     }
 
     fn symbols(&self) -> Result<&'a [elf::Sym64<LittleEndian>], &'static str> {
@@ -267,43 +217,28 @@ impl<'a> Dynamic<'a> {
         let at = |tag| self.value(tag).and_then(|address| self.at_address(address));
         // The table does not say how long it is; the hash tables over it do.
         let count = if let Some(data) = at(elf::DT_HASH) {
-            HashTable::<Header>::parse(LittleEndian, data)
-                .map_err(|_| WHAT)?
-                .symbol_table_length()
+            HashTable::<Header>::parse(LittleEndian, data).map_err(|_| WHAT)?.symbol_table_length()
         } else if let Some(data) = at(elf::DT_GNU_HASH) {
             let hash = GnuHashTable::<Header>::parse(LittleEndian, data).map_err(|_| WHAT)?;
             // Without any export the hashed part is empty: what lies before it are the undefined symbols.
-            hash.symbol_table_length(LittleEndian)
-                .unwrap_or_else(|| hash.symbol_base())
+            hash.symbol_table_length(LittleEndian).unwrap_or_else(|| hash.symbol_base())
         } else {
             return Err(WHAT);
         };
         let data = self.at_address(table).ok_or(WHAT)?;
         let count = usize::try_from(count).map_err(|_| WHAT)?;
-        pod::slice_from_bytes(data, count)
-            .map(|(symbols, _)| symbols)
-            .map_err(|()| WHAT)
+        pod::slice_from_bytes(data, count).map(|(symbols, _)| symbols).map_err(|()| WHAT)
     }
 }
 
 /// The bytes that the headers account for: both header tables and every segment.
 fn described_size(header: &Header, bytes: &[u8]) -> u64 {
-    let table = |offset: u64, count: u16, size: u16| {
-        offset.saturating_add(u64::from(count) * u64::from(size))
-    };
+    let table = |offset: u64, count: u16, size: u16| offset.saturating_add(u64::from(count) * u64::from(size));
     let endian = LittleEndian;
-    let mut size = table(
-        header.e_phoff(endian),
-        header.e_phnum(endian),
-        header.e_phentsize(endian),
-    );
+    let mut size = table(header.e_phoff(endian), header.e_phnum(endian), header.e_phentsize(endian));
     if header.e_shoff(endian) != 0 {
         // The section headers are the last thing in a file: a cut of any length shows here.
-        size = size.max(table(
-            header.e_shoff(endian),
-            header.e_shnum(endian),
-            header.e_shentsize(endian),
-        ));
+        size = size.max(table(header.e_shoff(endian), header.e_shnum(endian), header.e_shentsize(endian)));
     }
     for segment in header.program_headers(endian, bytes).unwrap_or(&[]) {
         let (offset, length) = segment.file_range(endian);
@@ -316,11 +251,7 @@ fn described_size(header: &Header, bytes: &[u8]) -> u64 {
 fn architecture(bytes: &[u8]) -> String {
     let (wide, little) = (bytes[4] == 2, bytes[5] != 2);
     let machine = [bytes[18], bytes[19]];
-    let machine = if little {
-        u16::from_le_bytes(machine)
-    } else {
-        u16::from_be_bytes(machine)
-    };
+    let machine = if little { u16::from_le_bytes(machine) } else { u16::from_be_bytes(machine) };
     let (name, usual_bits_64) = match elf::Machine(machine) {
         elf::EM_X86_64 => ("x86-64", true),
         elf::EM_AARCH64 => ("aarch64", true),
@@ -341,11 +272,7 @@ fn architecture(bytes: &[u8]) -> String {
         words += if wide { "64-bit " } else { "32-bit " };
     }
     if little != usual_little {
-        words += if little {
-            "little-endian "
-        } else {
-            "big-endian "
-        };
+        words += if little { "little-endian " } else { "big-endian " };
     }
     words + name
 }
@@ -363,10 +290,5 @@ fn os_abi_name(value: u8) -> String {
 }
 
 fn split_folders(lists: Vec<String>) -> Vec<String> {
-    lists
-        .iter()
-        .flat_map(|list| list.split(':'))
-        .filter(|folder| !folder.is_empty())
-        .map(str::to_owned)
-        .collect()
+    lists.iter().flat_map(|list| list.split(':')).filter(|folder| !folder.is_empty()).map(str::to_owned).collect()
 }

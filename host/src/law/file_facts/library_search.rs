@@ -18,9 +18,7 @@ pub(super) fn first_missing(path: &Path, elf: &ElfFacts) -> Option<(String, Vec<
     let cache = std::fs::read("/etc/ld.so.cache").unwrap_or_default();
     let folders = folders(path, elf, &loaded)?;
     let missing = elf.needed.iter().find(|name| {
-        let is_loaded = loaded
-            .iter()
-            .any(|path| path.file_name() == Some(OsStr::new(name.as_str())));
+        let is_loaded = loaded.iter().any(|path| path.file_name() == Some(OsStr::new(name.as_str())));
         let found = if name.contains('/') {
             name.contains('$') || Path::new(name).exists()
         } else {
@@ -28,11 +26,7 @@ pub(super) fn first_missing(path: &Path, elf: &ElfFacts) -> Option<(String, Vec<
         };
         !is_loaded && !found && !cache_names(&cache, name)
     })?;
-    let searched = if missing.contains('/') {
-        Vec::new()
-    } else {
-        without_repeats(folders)
-    };
+    let searched = if missing.contains('/') { Vec::new() } else { without_repeats(folders) };
     Some((missing.clone(), searched))
 }
 
@@ -52,9 +46,7 @@ fn folders(path: &Path, elf: &ElfFacts, loaded: &[PathBuf]) -> Option<Vec<PathBu
     let origin = std::path::absolute(path).ok()?.parent()?.to_path_buf();
     let mut folders = Vec::new();
     for folder in elf.rpath.iter().chain(&elf.runpath) {
-        let replaced = folder
-            .replace("${ORIGIN}", "$ORIGIN")
-            .replace("$ORIGIN", &origin.to_string_lossy());
+        let replaced = folder.replace("${ORIGIN}", "$ORIGIN").replace("$ORIGIN", &origin.to_string_lossy());
         if replaced.contains('$') {
             // $LIB and $PLATFORM depend on how the linker was built.
             return None;
@@ -62,13 +54,13 @@ fn folders(path: &Path, elf: &ElfFacts, loaded: &[PathBuf]) -> Option<Vec<PathBu
         folders.push(PathBuf::from(replaced));
     }
     if let Some(list) = std::env::var_os("LD_LIBRARY_PATH") {
-        folders.extend(std::env::split_paths(&list).map(|folder| {
-            if folder.as_os_str().is_empty() {
-                PathBuf::from(".")
-            } else {
-                folder
-            }
-        }));
+        folders.extend(
+            std::env::split_paths(&list).map(
+                |folder| {
+                    if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder }
+                },
+            ),
+        );
     }
     let arch = std::env::consts::ARCH;
     for root in ["/lib", "/usr/lib", "/usr/local/lib"] {

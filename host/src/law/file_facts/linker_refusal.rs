@@ -21,9 +21,7 @@ pub enum LinkerRefusal {
         needed: Vec<String>,
     },
     /// Built against a newer system library.
-    #[error(
-        "`{path}` needs `{version}` of `{library}`, which this system's one is too old to have"
-    )]
+    #[error("`{path}` needs `{version}` of `{library}`, which this system's one is too old to have")]
     MissingVersion {
         /// The library.
         path: PathBuf,
@@ -66,47 +64,24 @@ impl LinkerRefusal {
         let path = facts.path.clone();
         let message = message.trim();
         if let Some((_, rest)) = message.split_once("undefined symbol: ") {
-            let symbol = rest
-                .split([',', ' ', '\n'])
-                .next()
-                .unwrap_or(rest)
-                .to_owned();
-            return Self::MissingSymbol {
-                path,
-                symbol,
-                needed: facts.elf.needed.clone(),
-            };
+            let symbol = rest.split([',', ' ', '\n']).next().unwrap_or(rest).to_owned();
+            return Self::MissingSymbol { path, symbol, needed: facts.elf.needed.clone() };
         }
         if message.contains("' not found (required by")
             && let Some((library, rest)) = message.split_once(": version `")
             && let Some((version, _)) = rest.split_once('\'')
         {
-            return Self::MissingVersion {
-                path,
-                version: version.to_owned(),
-                library: library.to_owned(),
-            };
+            return Self::MissingVersion { path, version: version.to_owned(), library: library.to_owned() };
         }
-        if let Some((library, _)) =
-            message.split_once(": cannot open shared object file: No such file")
+        if let Some((library, _)) = message.split_once(": cannot open shared object file: No such file")
             && std::path::Path::new(library) != path
         {
-            return Self::MissingLibrary {
-                path,
-                library: library.to_owned(),
-            };
+            return Self::MissingLibrary { path, library: library.to_owned() };
         }
-        Self::Other {
-            path,
-            message: message.to_owned(),
-        }
+        Self::Other { path, message: message.to_owned() }
     }
 }
 
 fn list(needed: &[String]) -> String {
-    if needed.is_empty() {
-        "none".into()
-    } else {
-        needed.join(", ")
-    }
+    if needed.is_empty() { "none".into() } else { needed.join(", ") }
 }

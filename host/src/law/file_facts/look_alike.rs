@@ -58,24 +58,14 @@ impl LookAlike {
             Self::AppleBinary
         } else if starts(b"BC\xc0\xde") {
             Self::Bitcode
-        } else if [
-            &b"\x1f\x8b"[..],
-            b"\xfd7zXZ",
-            b"\x28\xb5\x2f\xfd",
-            b"BZh",
-            b"PK\x03\x04",
-        ]
-        .iter()
-        .any(|m| starts(m))
+        } else if [&b"\x1f\x8b"[..], b"\xfd7zXZ", b"\x28\xb5\x2f\xfd", b"BZh", b"PK\x03\x04"].iter().any(|m| starts(m))
         {
             Self::Compressed
         } else if is_text(head) {
             let text = String::from_utf8_lossy(head);
             match Language::of(path) {
                 Some(language) => Self::Source { language },
-                None if text.contains("GNU ld script")
-                    || text.contains("INPUT") && text.contains('(') =>
-                {
+                None if text.contains("GNU ld script") || text.contains("INPUT") && text.contains('(') => {
                     Self::LinkerScript
                 }
                 None => Self::Text,
@@ -88,9 +78,7 @@ impl LookAlike {
     /// What to do about it, as the rest of a sentence.
     pub(super) fn hint(&self) -> &'static str {
         match self {
-            Self::Source {
-                language: Language::Rust,
-            } => "; `wearlaw build` makes a library of its crate",
+            Self::Source { language: Language::Rust } => "; `wearlaw build` makes a library of its crate",
             Self::Source { .. } => "; `wearlaw build` makes a library of it",
             Self::ObjectFile => "; link it with -shared",
             Self::StaticArchive => "; link its objects with -shared",
@@ -125,8 +113,5 @@ fn is_text(head: &[u8]) -> bool {
         Ok(_) => true,
         Err(error) => error.error_len().is_none(),
     };
-    whole
-        && !head
-            .iter()
-            .any(|&b| b < 0x20 && !b"\t\n\r\x0c".contains(&b))
+    whole && !head.iter().any(|&b| b < 0x20 && !b"\t\n\r\x0c".contains(&b))
 }

@@ -124,10 +124,7 @@ pub enum FileFactsError {
         found: String,
     },
     /// No entry of any version.
-    #[error(
-        "`{path}` exports no function `{ENTRY_SYMBOL}`, so it is no wear law{}",
-        near_miss_words(near_miss)
-    )]
+    #[error("`{path}` exports no function `{ENTRY_SYMBOL}`, so it is no wear law{}", near_miss_words(near_miss))]
     NoEntry {
         /// The file.
         path: PathBuf,
@@ -146,10 +143,7 @@ pub enum FileFactsError {
         found: Vec<u32>,
     },
     /// A needed library is nowhere to be found.
-    #[error(
-        "`{path}` needs the library `{library}`, which is not there{}",
-        folder_names(searched)
-    )]
+    #[error("`{path}` needs the library `{library}`, which is not there{}", folder_names(searched))]
     MissingLibrary {
         /// The file.
         path: PathBuf,
@@ -217,12 +211,7 @@ impl FileFacts {
         let path = path.as_ref();
         let bytes = read_library(path)?;
         let elf = ElfFacts::parse(path, &bytes)?;
-        Ok(Self {
-            path: path.to_path_buf(),
-            size: bytes.len() as u64,
-            sha256: sha256_hex(&bytes),
-            elf,
-        })
+        Ok(Self { path: path.to_path_buf(), size: bytes.len() as u64, sha256: sha256_hex(&bytes), elf })
     }
 
     /// Checks that the library has the entry of this major version and that its needs can be met.
@@ -235,31 +224,17 @@ impl FileFacts {
         let elf = &self.elf;
         if !elf.has_entry {
             return Err(if elf.other_majors.is_empty() {
-                FileFactsError::NoEntry {
-                    path: path(),
-                    near_miss: elf.near_miss.clone(),
-                }
+                FileFactsError::NoEntry { path: path(), near_miss: elf.near_miss.clone() }
             } else {
-                FileFactsError::OtherMajorVersion {
-                    path: path(),
-                    found: elf.other_majors.clone(),
-                }
+                FileFactsError::OtherMajorVersion { path: path(), found: elf.other_majors.clone() }
             });
         }
         // The sanitizer comes first: its runtime is often also a library that is not installed.
         if let Some((sanitizer, runtime)) = sanitizer::runtime_wanted(elf) {
-            return Err(FileFactsError::SanitizerRuntime {
-                path: path(),
-                sanitizer,
-                runtime,
-            });
+            return Err(FileFactsError::SanitizerRuntime { path: path(), sanitizer, runtime });
         }
         if let Some((library, searched)) = library_search::first_missing(&self.path, elf) {
-            return Err(FileFactsError::MissingLibrary {
-                path: path(),
-                library,
-                searched,
-            });
+            return Err(FileFactsError::MissingLibrary { path: path(), library, searched });
         }
         Ok(())
     }
@@ -273,17 +248,10 @@ pub fn check_pin(facts: &FileFacts, expected_sha256: &str) -> Result<(), PinMism
     let expected = expected_sha256.trim().to_ascii_lowercase();
     let path = facts.path.clone();
     if expected.len() != 64 || !expected.bytes().all(|b| b.is_ascii_hexdigit()) {
-        return Err(PinMismatch::NotASha256 {
-            path,
-            pin: expected_sha256.to_owned(),
-        });
+        return Err(PinMismatch::NotASha256 { path, pin: expected_sha256.to_owned() });
     }
     if expected != facts.sha256 {
-        return Err(PinMismatch::Differs {
-            path,
-            found: facts.sha256.clone(),
-            expected,
-        });
+        return Err(PinMismatch::Differs { path, found: facts.sha256.clone(), expected });
     }
     Ok(())
 }
@@ -295,57 +263,36 @@ fn read_library(path: &Path) -> Result<Vec<u8>, FileFactsError> {
     let name = || path.to_path_buf();
     let unreadable = |source: std::io::Error| match source.kind() {
         std::io::ErrorKind::NotFound => FileFactsError::NotFound { path: name() },
-        _ => FileFactsError::Unreadable {
-            path: name(),
-            source,
-        },
+        _ => FileFactsError::Unreadable { path: name(), source },
     };
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
     if metadata.is_dir() {
-        return Err(FileFactsError::NotAFile {
-            path: name(),
-            found: "folder",
-        });
+        return Err(FileFactsError::NotAFile { path: name(), found: "folder" });
     }
     if !metadata.is_file() {
         // Opening a pipe would wait for a writer, reading a device might never end.
-        return Err(FileFactsError::NotAFile {
-            path: name(),
-            found: "pipe, socket or device",
-        });
+        return Err(FileFactsError::NotAFile { path: name(), found: "pipe, socket or device" });
     }
     let mut file = std::fs::File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::with_capacity(4096);
-    Read::by_ref(&mut file)
-        .take(4096)
-        .read_to_end(&mut bytes)
-        .map_err(unreadable)?;
+    Read::by_ref(&mut file).take(4096).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.is_empty() {
         return Err(FileFactsError::Empty { path: name() });
     }
     if let Some(found) = LookAlike::of_no_elf(path, &bytes) {
-        return Err(FileFactsError::NotALibrary {
-            path: name(),
-            found,
-        });
+        return Err(FileFactsError::NotALibrary { path: name(), found });
     }
-    bytes.reserve(
-        usize::try_from(metadata.len())
-            .unwrap_or(0)
-            .saturating_sub(bytes.len()),
-    );
+    bytes.reserve(usize::try_from(metadata.len()).unwrap_or(0).saturating_sub(bytes.len()));
     file.read_to_end(&mut bytes).map_err(unreadable)?;
     Ok(bytes)
 }
 
 fn sha256_hex(bytes: &[u8]) -> String {
     use std::fmt::Write;
-    Sha256::digest(bytes)
-        .iter()
-        .fold(String::with_capacity(64), |mut hex, byte| {
-            let _ = write!(hex, "{byte:02x}");
-            hex
-        })
+    Sha256::digest(bytes).iter().fold(String::with_capacity(64), |mut hex, byte| {
+        let _ = write!(hex, "{byte:02x}");
+        hex
+    })
 }
 
 fn near_miss_words(near_miss: &Option<String>) -> String {
@@ -362,28 +309,18 @@ fn near_miss_words(near_miss: &Option<String>) -> String {
                 "; its export `{name}` lies in a Fortran module: give the function bind(c, name=\"{ENTRY_SYMBOL}\")"
             )
         }
-        Some(name) => format!(
-            "; its export `{name}` comes close (in Fortran: bind(c, name=\"{ENTRY_SYMBOL}\"))"
-        ),
+        Some(name) => format!("; its export `{name}` comes close (in Fortran: bind(c, name=\"{ENTRY_SYMBOL}\"))"),
     }
 }
 
 fn entry_names(majors: &[u32]) -> String {
-    majors
-        .iter()
-        .map(|major| format!("`wearlaw_entry_{major}`"))
-        .collect::<Vec<_>>()
-        .join(" and ")
+    majors.iter().map(|major| format!("`wearlaw_entry_{major}`")).collect::<Vec<_>>().join(" and ")
 }
 
 fn folder_names(folders: &[PathBuf]) -> String {
     if folders.is_empty() {
         return String::new();
     }
-    let names = folders
-        .iter()
-        .map(|folder| folder.display().to_string())
-        .collect::<Vec<_>>()
-        .join(", ");
+    let names = folders.iter().map(|folder| folder.display().to_string()).collect::<Vec<_>>().join(", ");
     format!(" (searched: {names})")
 }

@@ -30,28 +30,18 @@ const ALL: [(Sanitizer, &str); 5] = [
 
 impl Sanitizer {
     fn short(self) -> &'static str {
-        ALL.iter()
-            .find(|(sanitizer, _)| *sanitizer == self)
-            .map_or("", |(_, short)| short)
+        ALL.iter().find(|(sanitizer, _)| *sanitizer == self).map_or("", |(_, short)| short)
     }
 
     /// The words to put before the program's name so that the runtime is there from the start.
     pub(super) fn preload(self, runtime: &str) -> String {
         let short = self.short();
         // Rust's and the system's own one-time allocations are not the law's leaks.
-        let options = if self == Self::Address {
-            " ASAN_OPTIONS=detect_leaks=0"
-        } else {
-            ""
-        };
+        let options = if self == Self::Address { " ASAN_OPTIONS=detect_leaks=0" } else { "" };
         if runtime.starts_with("lib") && !runtime.contains("clang_rt") {
             format!("LD_PRELOAD=$(gcc -print-file-name=lib{short}.so){options}")
         } else {
-            let suffix = if self == Self::Undefined {
-                "ubsan_standalone"
-            } else {
-                short
-            };
+            let suffix = if self == Self::Undefined { "ubsan_standalone" } else { short };
             let arch = std::env::consts::ARCH;
             format!("LD_PRELOAD=$(clang -print-file-name=libclang_rt.{suffix}-{arch}.so){options}")
         }
@@ -73,19 +63,11 @@ impl fmt::Display for Sanitizer {
 /// The first sanitizer whose runtime the library needs and this process does not have.
 pub(super) fn runtime_wanted(elf: &ElfFacts) -> Option<(Sanitizer, String)> {
     let loaded = loaded_libraries();
-    let present = |short: &str| {
-        loaded
-            .iter()
-            .any(|path| is_runtime(&path.to_string_lossy(), short))
-    };
+    let present = |short: &str| loaded.iter().any(|path| is_runtime(&path.to_string_lossy(), short));
     ALL.iter().find_map(|(sanitizer, short)| {
         let library = elf.needed.iter().find(|name| is_runtime(name, short));
         // clang leaves the runtime out of shared libraries: only the calls into it show.
-        let call = || {
-            elf.undefined
-                .iter()
-                .find(|name| name.starts_with(&format!("__{short}_")))
-        };
+        let call = || elf.undefined.iter().find(|name| name.starts_with(&format!("__{short}_")));
         let wanted = library.or_else(call)?;
         (!present(short)).then(|| (*sanitizer, wanted.clone()))
     })
@@ -94,7 +76,5 @@ pub(super) fn runtime_wanted(elf: &ElfFacts) -> Option<(Sanitizer, String)> {
 fn is_runtime(name: &str, short: &str) -> bool {
     let name = name.rsplit('/').next().unwrap_or(name);
     name.starts_with(&format!("lib{short}.so"))
-        || name.starts_with("libclang_rt.")
-            && name.contains(short)
-            && (short != "asan" || !name.contains("hwasan"))
+        || name.starts_with("libclang_rt.") && name.contains(short) && (short != "asan" || !name.contains("hwasan"))
 }

@@ -24,18 +24,10 @@ impl LawInstance {
     ) -> Result<Evaluation, EvaluateError> {
         let asks = self.descriptor().writes(OutputItem::Status) && outputs.status.is_none();
         let statuses = asks.then(|| vec![abi::WL_OK; piece.len()]);
-        let mut again = Again {
-            statuses,
-            words: vec![0; TEXT_SIZE],
-        };
+        let mut again = Again { statuses, words: vec![0; TEXT_SIZE] };
         let wanted = request(self.descriptor(), outputs) | bit(asks, abi::WL_OUT_STATUS);
         let view = batch.range(piece.clone());
-        let second = self.call(
-            view.cursor(wanted).at(&(0..piece.len())),
-            &piece,
-            outputs,
-            Some(&mut again),
-        );
+        let second = self.call(view.cursor(wanted).at(&(0..piece.len())), &piece, outputs, Some(&mut again));
         let statuses = match (&again.statuses, &outputs.status) {
             (Some(statuses), _) => statuses.as_slice(),
             (None, Some(given)) => &given[piece.clone()],
@@ -51,13 +43,7 @@ impl LawInstance {
     }
 
     /// Finds the point by asking for one point at a time: a law is pure, so each answers as it did in the batch.
-    fn search(
-        &self,
-        batch: &Batch<'_>,
-        piece: Range<usize>,
-        outputs: &mut Outputs<'_>,
-        status: i32,
-    ) -> Option<usize> {
+    fn search(&self, batch: &Batch<'_>, piece: Range<usize>, outputs: &mut Outputs<'_>, status: i32) -> Option<usize> {
         let mut cursor = batch.cursor(request(self.descriptor(), outputs));
         let found = piece.clone().find(|point| {
             let one = *point..point + 1;
@@ -66,28 +52,14 @@ impl LawInstance {
         Some(found - piece.start)
     }
 
-    fn verdict(
-        &self,
-        raw: &Raw,
-        at: Option<PointInputs>,
-        text: String,
-    ) -> Result<Evaluation, EvaluateError> {
+    fn verdict(&self, raw: &Raw, at: Option<PointInputs>, text: String) -> Result<Evaluation, EvaluateError> {
         let law = self.descriptor().name.clone();
         match raw.status {
             abi::WL_UNRELIABLE => Ok(Evaluation::Unreliable { at, text }),
             abi::WL_CUT_STEP if raw.dt_factor > 0.0 && raw.dt_factor < 1.0 => {
-                Ok(Evaluation::CutStep {
-                    factor: raw.dt_factor,
-                    at,
-                    text,
-                })
+                Ok(Evaluation::CutStep { factor: raw.dt_factor, at, text })
             }
-            abi::WL_CUT_STEP => Err(EvaluateError::BadFactor {
-                law,
-                factor: NumberText(raw.dt_factor),
-                at,
-                text,
-            }),
+            abi::WL_CUT_STEP => Err(EvaluateError::BadFactor { law, factor: NumberText(raw.dt_factor), at, text }),
             abi::WL_OUT_OF_DOMAIN => Err(EvaluateError::OutOfDomain { law, at, text }),
             abi::WL_MISSING_INPUT => Err(EvaluateError::MissingInput {
                 law,
@@ -97,23 +69,13 @@ impl LawInstance {
                 text,
             }),
             abi::WL_FAILED => Err(EvaluateError::Failed { law, at, text }),
-            status => Err(EvaluateError::UnknownStatus {
-                law,
-                status,
-                at,
-                text,
-            }),
+            status => Err(EvaluateError::UnknownStatus { law, status, at, text }),
         }
     }
 
     /// Finds the first number of a piece that breaks the contract.
     #[cold]
-    pub(super) fn broken(
-        &self,
-        batch: &Batch<'_>,
-        piece: Range<usize>,
-        outputs: &Outputs<'_>,
-    ) -> EvaluateError {
+    pub(super) fn broken(&self, batch: &Batch<'_>, piece: Range<usize>, outputs: &Outputs<'_>) -> EvaluateError {
         let descriptor = self.descriptor();
         let law = descriptor.name.clone();
         let variables = descriptor.state.len();
@@ -129,11 +91,7 @@ impl LawInstance {
                 return not_finite("increment", increment, point);
             }
             if increment < 0.0 && descriptor.claims(Claim::NonNegative) {
-                return EvaluateError::Negative {
-                    law,
-                    value: NumberText(increment),
-                    at: batch.inputs_at(point),
-                };
+                return EvaluateError::Negative { law, value: NumberText(increment), at: batch.inputs_at(point) };
             }
             if let Some(direction) = &outputs.direction {
                 let vector = &direction[3 * point..3 * point + 3];
@@ -141,11 +99,7 @@ impl LawInstance {
                     return not_finite("direction", *component, point);
                 }
                 if !unit_lengths(vector) {
-                    let length = vector
-                        .iter()
-                        .map(|component| component * component)
-                        .sum::<f64>()
-                        .sqrt();
+                    let length = vector.iter().map(|component| component * component).sum::<f64>().sqrt();
                     return EvaluateError::DirectionLength {
                         law,
                         length: NumberText(length),
@@ -174,35 +128,19 @@ impl LawInstance {
 
 fn first_bad(statuses: &[i32], status: i32) -> Option<usize> {
     let same = statuses.iter().position(|one| *one == status);
-    same.or_else(|| {
-        statuses
-            .iter()
-            .position(|one| severity(*one) >= severity(status))
-    })
+    same.or_else(|| statuses.iter().position(|one| severity(*one) >= severity(status)))
 }
 
 fn named(first_bad: i64, points: usize) -> Option<usize> {
-    usize::try_from(first_bad)
-        .ok()
-        .filter(|point| *point < points)
+    usize::try_from(first_bad).ok().filter(|point| *point < points)
 }
 
 /// A status that does not exist means failed.
 fn severity(status: i32) -> i32 {
-    if (abi::WL_OK..=abi::WL_FAILED).contains(&status) {
-        status
-    } else {
-        abi::WL_FAILED
-    }
+    if (abi::WL_OK..=abi::WL_FAILED).contains(&status) { status } else { abi::WL_FAILED }
 }
 
 fn text_of(words: &[c_char]) -> String {
-    let bytes: Vec<u8> = words
-        .iter()
-        .map(|byte| byte.to_ne_bytes()[0])
-        .take_while(|byte| *byte != 0)
-        .collect();
-    String::from_utf8_lossy(&bytes)
-        .trim()
-        .replace(char::is_control, " ")
+    let bytes: Vec<u8> = words.iter().map(|byte| byte.to_ne_bytes()[0]).take_while(|byte| *byte != 0).collect();
+    String::from_utf8_lossy(&bytes).trim().replace(char::is_control, " ")
 }

@@ -24,11 +24,7 @@ impl Evaluator for IsolatedLaw {
         match *self {}
     }
 
-    fn evaluate(
-        &self,
-        _batch: &Batch<'_>,
-        _outputs: &mut Outputs<'_>,
-    ) -> Result<Evaluation, EvaluateError> {
+    fn evaluate(&self, _batch: &Batch<'_>, _outputs: &mut Outputs<'_>) -> Result<Evaluation, EvaluateError> {
         match *self {}
     }
 

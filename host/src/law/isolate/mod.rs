@@ -72,14 +72,7 @@ pub struct IsolateOptions {
 impl IsolateOptions {
     /// The law of a source, with nothing else said.
     pub fn new(source: Source) -> Self {
-        Self {
-            source,
-            sha256: None,
-            law: None,
-            options: None,
-            deadline: DEADLINE,
-            program: None,
-        }
+        Self { source, sha256: None, law: None, options: None, deadline: DEADLINE, program: None }
     }
 }
 

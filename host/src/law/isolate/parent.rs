@@ -42,9 +42,7 @@ struct Warnings {
 
 impl std::fmt::Debug for IsolatedLaw {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.debug_struct("IsolatedLaw")
-            .field("name", &self.descriptor.name)
-            .finish_non_exhaustive()
+        out.debug_struct("IsolatedLaw").field("name", &self.descriptor.name).finish_non_exhaustive()
     }
 }
 
@@ -98,20 +96,10 @@ impl IsolatedLaw {
     }
 
     fn channel_error(&self, call: u64, reason: impl ToString) -> EvaluateError {
-        EvaluateError::Channel {
-            law: self.descriptor.name.clone(),
-            call,
-            reason: reason.to_string(),
-        }
+        EvaluateError::Channel { law: self.descriptor.name.clone(), call, reason: reason.to_string() }
     }
 
-    fn lost(
-        &self,
-        call: u64,
-        batch: &Batch<'_>,
-        how: String,
-        piece: Range<usize>,
-    ) -> EvaluateError {
+    fn lost(&self, call: u64, batch: &Batch<'_>, how: String, piece: Range<usize>) -> EvaluateError {
         let at = self.search(batch, piece.clone());
         EvaluateError::WorkerLost {
             law: self.descriptor.name.clone(),
@@ -129,11 +117,7 @@ impl Evaluator for IsolatedLaw {
         &self.descriptor
     }
 
-    fn evaluate(
-        &self,
-        batch: &Batch<'_>,
-        outputs: &mut Outputs<'_>,
-    ) -> Result<Evaluation, EvaluateError> {
+    fn evaluate(&self, batch: &Batch<'_>, outputs: &mut Outputs<'_>) -> Result<Evaluation, EvaluateError> {
         fits(&self.descriptor, batch, outputs)?;
         let _turn = self.turn.as_ref().map(lock);
         let call = {
@@ -144,9 +128,7 @@ impl Evaluator for IsolatedLaw {
         let idle = lock(&self.idle).pop();
         let mut worker = match idle {
             Some(worker) => worker,
-            None => self
-                .fresh()
-                .map_err(|error| self.channel_error(call, error))?,
+            None => self.fresh().map_err(|error| self.channel_error(call, error))?,
         };
         let mut worst = Evaluation::Good;
         let mut rest = outputs.reborrow();
@@ -156,20 +138,14 @@ impl Evaluator for IsolatedLaw {
             let (mut mine, others) = rest.split_at(part.len(), self.descriptor.state.len());
             rest = others;
             start = part.end;
-            let ended =
-                match worker.call(&batch.range(part.clone()), &mut mine, self.options.deadline) {
-                    Ok(ended) => ended,
-                    Err(Trouble::Lost { how, piece }) => {
-                        drop(worker);
-                        return Err(self.lost(
-                            call,
-                            batch,
-                            how,
-                            part.start + piece.start..part.start + piece.end,
-                        ));
-                    }
-                    Err(Trouble::Channel(error)) => return Err(self.channel_error(call, error)),
-                };
+            let ended = match worker.call(&batch.range(part.clone()), &mut mine, self.options.deadline) {
+                Ok(ended) => ended,
+                Err(Trouble::Lost { how, piece }) => {
+                    drop(worker);
+                    return Err(self.lost(call, batch, how, part.start + piece.start..part.start + piece.end));
+                }
+                Err(Trouble::Channel(error)) => return Err(self.channel_error(call, error)),
+            };
             self.warn(ended.warnings);
             // The worker counts from the first point of its part.
             let first = batch.first() + part.start;
@@ -246,28 +222,13 @@ impl Worker {
             }
             Err(Trouble::Lost { how, .. }) => return Err(IsolateError::Lost { library, how }),
             Err(Trouble::Channel(error)) => {
-                return Err(IsolateError::Answer {
-                    library,
-                    reason: error.to_string(),
-                });
+                return Err(IsolateError::Answer { library, reason: error.to_string() });
             }
         }
         match protocol::payload(&mut worker.from) {
-            Ok(Opened::Law {
-                descriptor,
-                warnings,
-            }) => Ok((worker, *descriptor, warnings)),
-            Ok(Opened::Refused {
-                reason,
-                code_has_run,
-            }) => Err(IsolateError::Refused {
-                reason,
-                code_has_run,
-            }),
-            Err(error) => Err(IsolateError::Answer {
-                library,
-                reason: error.to_string(),
-            }),
+            Ok(Opened::Law { descriptor, warnings }) => Ok((worker, *descriptor, warnings)),
+            Ok(Opened::Refused { reason, code_has_run }) => Err(IsolateError::Refused { reason, code_has_run }),
+            Err(error) => Err(IsolateError::Answer { library, reason: error.to_string() }),
         }
     }
 
@@ -281,16 +242,9 @@ impl Worker {
             memory: memory.descriptor(),
         };
         let inherited = [channels.from_parent, channels.to_parent, channels.memory];
-        let arguments = std::iter::once(WORKER_COMMAND.to_owned())
-            .chain(channels.arguments())
-            .collect();
+        let arguments = std::iter::once(WORKER_COMMAND.to_owned()).chain(channels.arguments()).collect();
         let process = Process::start(program, arguments, inherited)?;
-        Ok(Self {
-            to,
-            from,
-            memory,
-            process,
-        })
+        Ok(Self { to, from, memory, process })
     }
 
     /// Waits for the first byte of an answer.
@@ -307,10 +261,7 @@ impl Worker {
             Event::Ended => Err(lost(self.process.fate())),
             Event::Deadline => {
                 self.process.end();
-                Err(lost(format!(
-                    "did not answer within {} s and was ended",
-                    deadline.as_secs_f64()
-                )))
+                Err(lost(format!("did not answer within {} s and was ended", deadline.as_secs_f64())))
             }
         }
     }
@@ -326,27 +277,16 @@ impl Worker {
         let piece = |memory: &Shared| memory.noted(batch.points());
         if self.to.write_all(&[protocol::EVALUATE]).is_err() {
             let how = self.process.fate();
-            return Err(Trouble::Lost {
-                how,
-                piece: piece(&self.memory),
-            });
+            return Err(Trouble::Lost { how, piece: piece(&self.memory) });
         }
         let ended = match self.answer(deadline) {
-            Ok(protocol::GOOD) => Ended {
-                result: Ok(Evaluation::Good),
-                warnings: Vec::new(),
-            },
+            Ok(protocol::GOOD) => Ended { result: Ok(Evaluation::Good), warnings: Vec::new() },
             Ok(protocol::ENDED) => protocol::payload::<Ended>(&mut self.from)?,
             Ok(tag) => {
-                return Err(Trouble::Channel(std::io::Error::other(format!(
-                    "a message of kind {tag}"
-                ))));
+                return Err(Trouble::Channel(std::io::Error::other(format!("a message of kind {tag}"))));
             }
             Err(Trouble::Lost { how, .. }) => {
-                return Err(Trouble::Lost {
-                    how,
-                    piece: piece(&self.memory),
-                });
+                return Err(Trouble::Lost { how, piece: piece(&self.memory) });
             }
             Err(other) => return Err(other),
         };
@@ -377,22 +317,14 @@ impl Worker {
         let columns: Vec<Place> = spans
             .iter()
             .map(|span| match span {
-                Some(span) => Place {
-                    offset: room(span.words.len()),
-                    step: span.step as u64,
-                },
-                None => Place {
-                    offset: protocol::ABSENT,
-                    step: 0,
-                },
+                Some(span) => Place { offset: room(span.words.len()), step: span.step as u64 },
+                None => Place { offset: protocol::ABSENT, step: 0 },
             })
             .collect();
         self.memory.reserve(used)?;
         for (span, place) in spans.iter().zip(&columns) {
             if let Some(span) = span {
-                self.memory
-                    .words_mut(place.offset as usize, span.words.len())
-                    .copy_from_slice(span.words);
+                self.memory.words_mut(place.offset as usize, span.words.len()).copy_from_slice(span.words);
             }
         }
         let header = Header {
@@ -416,27 +348,16 @@ impl Worker {
         for (array, offset) in arrays.into_iter().zip(header.outputs) {
             if let Some(array) = array {
                 let words = self.memory.words(offset as usize, array.len());
-                array
-                    .iter_mut()
-                    .zip(words)
-                    .for_each(|(place, word)| *place = f64::from_bits(*word));
+                array.iter_mut().zip(words).for_each(|(place, word)| *place = f64::from_bits(*word));
             }
         }
         if let Some(status) = outputs.status.as_deref_mut() {
-            let words = self
-                .memory
-                .words(header.outputs[4] as usize, status.len().div_ceil(2));
+            let words = self.memory.words(header.outputs[4] as usize, status.len().div_ceil(2));
             let halves = words.iter().flat_map(|word| {
                 let bytes = word.to_ne_bytes();
-                [
-                    [bytes[0], bytes[1], bytes[2], bytes[3]],
-                    [bytes[4], bytes[5], bytes[6], bytes[7]],
-                ]
+                [[bytes[0], bytes[1], bytes[2], bytes[3]], [bytes[4], bytes[5], bytes[6], bytes[7]]]
             });
-            status
-                .iter_mut()
-                .zip(halves)
-                .for_each(|(place, half)| *place = i32::from_ne_bytes(half));
+            status.iter_mut().zip(halves).for_each(|(place, half)| *place = i32::from_ne_bytes(half));
         }
     }
 }

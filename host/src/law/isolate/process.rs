@@ -27,11 +27,7 @@ pub(super) enum Event {
 
 impl Process {
     /// Starts `program` with inherited descriptors.
-    pub(super) fn start(
-        program: &Path,
-        arguments: Vec<String>,
-        inherited: [RawFd; 3],
-    ) -> io::Result<Self> {
+    pub(super) fn start(program: &Path, arguments: Vec<String>, inherited: [RawFd; 3]) -> io::Result<Self> {
         let mut command = Command::new(program);
         command.args(arguments).stdin(Stdio::null());
         // What a law prints must not get between the lines of a report on the standard output.
@@ -46,11 +42,7 @@ impl Process {
             // SAFETY: the descriptor was just made and belongs to nobody else.
             unsafe { OwnedFd::from_raw_fd(ended as RawFd) }
         });
-        Ok(Self {
-            child,
-            ended,
-            status: None,
-        })
+        Ok(Self { child, ended, status: None })
     }
 
     /// Waits until `pipe` can be read, the process ends or time is up.
@@ -58,17 +50,10 @@ impl Process {
         let end = Instant::now().checked_add(deadline);
         let watched = self.ended.as_ref().map_or(-1, AsRawFd::as_raw_fd);
         loop {
-            let left = end.map_or(Duration::MAX, |end| {
-                end.saturating_duration_since(Instant::now())
-            });
+            let left = end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()));
             // Rounded up, so that a millisecond's rest is not spent in a busy loop.
-            let milliseconds =
-                i32::try_from(left.as_nanos().div_ceil(1_000_000)).unwrap_or(i32::MAX);
-            let mut wanted = [pipe, watched].map(|fd| libc::pollfd {
-                fd,
-                events: libc::POLLIN,
-                revents: 0,
-            });
+            let milliseconds = i32::try_from(left.as_nanos().div_ceil(1_000_000)).unwrap_or(i32::MAX);
+            let mut wanted = [pipe, watched].map(|fd| libc::pollfd { fd, events: libc::POLLIN, revents: 0 });
             // SAFETY: the array holds two entries and lives through the call.
             let ready = unsafe { libc::poll(wanted.as_mut_ptr(), 2, milliseconds) };
             if ready < 0 {
@@ -120,16 +105,12 @@ impl Process {
             signal(group, libc::SIGSTOP);
             // Its children may have children of their own meanwhile: once more, until no new one is found.
             for _ in 0..16 {
-                let fresh: Vec<libc::pid_t> = descendants(group)
-                    .into_iter()
-                    .filter(|process| !family.contains(process))
-                    .collect();
+                let fresh: Vec<libc::pid_t> =
+                    descendants(group).into_iter().filter(|process| !family.contains(process)).collect();
                 if fresh.is_empty() {
                     break;
                 }
-                fresh
-                    .iter()
-                    .for_each(|process| signal(*process, libc::SIGKILL));
+                fresh.iter().for_each(|process| signal(*process, libc::SIGKILL));
                 family.extend(fresh);
             }
             signal(group, libc::SIGKILL);
@@ -179,12 +160,8 @@ fn descendants(process: libc::pid_t) -> Vec<libc::pid_t> {
             continue;
         };
         for thread in threads.flatten() {
-            let children =
-                std::fs::read_to_string(thread.path().join("children")).unwrap_or_default();
-            for child in children
-                .split_whitespace()
-                .filter_map(|child| child.parse().ok())
-            {
+            let children = std::fs::read_to_string(thread.path().join("children")).unwrap_or_default();
+            for child in children.split_whitespace().filter_map(|child| child.parse().ok()) {
                 if !found.contains(&child) {
                     found.push(child);
                     open.push(child);
@@ -198,11 +175,7 @@ fn descendants(process: libc::pid_t) -> Vec<libc::pid_t> {
 /// Runs in the child between fork and exec.
 fn before_exec(parent: u32, inherited: [RawFd; 3]) -> io::Result<()> {
     let check = |answer: libc::c_int| {
-        if answer < 0 {
-            Err(io::Error::last_os_error())
-        } else {
-            Ok(())
-        }
+        if answer < 0 { Err(io::Error::last_os_error()) } else { Ok(()) }
     };
     // SAFETY: async-signal-safe calls with integers only.
     unsafe {
@@ -240,11 +213,7 @@ fn spawn_from_lasting_thread(command: Command) -> io::Result<Child> {
     });
     let (answer, answered) = channel();
     let gone = || io::Error::other("the thread that starts workers is gone");
-    spawner
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .send((command, answer))
-        .map_err(|_| gone())?;
+    spawner.lock().unwrap_or_else(PoisonError::into_inner).send((command, answer)).map_err(|_| gone())?;
     answered.recv().map_err(|_| gone())?
 }
 

@@ -36,14 +36,8 @@ pub(super) struct Open {
 /// What became of it.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) enum Opened {
-    Law {
-        descriptor: Box<LawDescriptor>,
-        warnings: Vec<String>,
-    },
-    Refused {
-        reason: String,
-        code_has_run: bool,
-    },
+    Law { descriptor: Box<LawDescriptor>, warnings: Vec<String> },
+    Refused { reason: String, code_has_run: bool },
 }
 
 /// How a call ended.
@@ -90,14 +84,8 @@ impl Channels {
     }
 
     pub(super) fn parse(arguments: &[String]) -> Option<Self> {
-        let mut numbers = arguments
-            .iter()
-            .map(|argument| argument.parse::<i32>().ok().filter(|number| *number > 2));
-        let channels = Self {
-            from_parent: numbers.next()??,
-            to_parent: numbers.next()??,
-            memory: numbers.next()??,
-        };
+        let mut numbers = arguments.iter().map(|argument| argument.parse::<i32>().ok().filter(|number| *number > 2));
+        let channels = Self { from_parent: numbers.next()??, to_parent: numbers.next()??, memory: numbers.next()?? };
         numbers.next().is_none().then_some(channels)
     }
 }
@@ -138,10 +126,7 @@ pub(super) struct Header {
 
 /// Columns of a law: its fields, constants, inputs and, if there are any, state variables.
 pub(super) fn column_count(law: &LawDescriptor) -> usize {
-    law.fields().iter().count()
-        + law.constants.len()
-        + law.inputs.len()
-        + usize::from(!law.state.is_empty())
+    law.fields().iter().count() + law.constants.len() + law.inputs.len() + usize::from(!law.state.is_empty())
 }
 
 impl Header {
@@ -173,12 +158,7 @@ impl Header {
             points: words[WORD_POINTS],
             numbers: numbers_of(&words[WORD_NUMBERS..WORD_NUMBERS + 17]),
             outputs,
-            columns: places
-                .map(|pair| Place {
-                    offset: pair[0],
-                    step: pair[1],
-                })
-                .collect(),
+            columns: places.map(|pair| Place { offset: pair[0], step: pair[1] }).collect(),
         }
     }
 }
@@ -222,12 +202,7 @@ fn numbers_of(words: &[u64]) -> CallNumbers {
         counter_body: whole(10),
         reference_temperature: real(11),
         absolute_zero: real(12),
-        units: UnitSizes {
-            metre: real(13),
-            kilogram: real(14),
-            second: real(15),
-            kelvin: real(16),
-        },
+        units: UnitSizes { metre: real(13), kilogram: real(14), second: real(15), kelvin: real(16) },
     }
 }
 
@@ -248,27 +223,12 @@ mod tests {
         let header = Header {
             bytes: 4096,
             points: 7,
-            numbers: CallNumbers {
-                time: 0.1,
-                dt: -0.0,
-                load_step: -3,
-                cycle: 9,
-                ..CallNumbers::default()
-            },
+            numbers: CallNumbers { time: 0.1, dt: -0.0, load_step: -3, cycle: 9, ..CallNumbers::default() },
             outputs: [50, ABSENT, 51, ABSENT, 52],
             columns: vec![
-                Place {
-                    offset: 40,
-                    step: 0,
-                },
-                Place {
-                    offset: ABSENT,
-                    step: 0,
-                },
-                Place {
-                    offset: 41,
-                    step: 9,
-                },
+                Place { offset: 40, step: 0 },
+                Place { offset: ABSENT, step: 0 },
+                Place { offset: 41, step: 9 },
             ],
         };
         let mut words = vec![0; FIXED_WORDS + 6];
@@ -279,18 +239,9 @@ mod tests {
 
     #[test]
     fn channels_are_three_descriptors_above_the_standard_ones() {
-        let channels = Channels {
-            from_parent: 3,
-            to_parent: 5,
-            memory: 4,
-        };
+        let channels = Channels { from_parent: 3, to_parent: 5, memory: 4 };
         assert_eq!(Channels::parse(&channels.arguments()), Some(channels));
-        for wrong in [
-            &["3", "4"][..],
-            &["1", "4", "5"],
-            &["3", "4", "x"],
-            &["3", "4", "5", "6"],
-        ] {
+        for wrong in [&["3", "4"][..], &["1", "4", "5"], &["3", "4", "x"], &["3", "4", "5", "6"]] {
             let wrong: Vec<String> = wrong.iter().map(|text| (*text).to_owned()).collect();
             assert_eq!(Channels::parse(&wrong), None, "{wrong:?}");
         }
@@ -301,10 +252,7 @@ mod tests {
         let mut message = Vec::new();
         send(&mut message, ENDED, &vec![1.0e-300_f64, 0.1 + 0.2]).expect("memory takes it");
         assert_eq!(message[0], ENDED);
-        assert_eq!(
-            payload::<Vec<f64>>(&mut &message[1..]).expect("its own text"),
-            [1.0e-300, 0.1 + 0.2]
-        );
+        assert_eq!(payload::<Vec<f64>>(&mut &message[1..]).expect("its own text"), [1.0e-300, 0.1 + 0.2]);
         assert!(payload::<Vec<f64>>(&mut &message[1..message.len() - 1]).is_err());
         assert!(payload::<Vec<f64>>(&mut &[255; 64][..]).is_err());
     }

@@ -26,14 +26,10 @@ impl IsolatedLaw {
             let mut outputs = Outputs {
                 increment: &mut increment,
                 // Everything that the law can write: what the caller had asked for may be what it died of.
-                direction: law
-                    .writes(OutputItem::Direction)
-                    .then_some(&mut direction[..]),
+                direction: law.writes(OutputItem::Direction).then_some(&mut direction[..]),
                 state: (!law.state.is_empty()).then_some(&mut state[..]),
                 status: law.writes(OutputItem::Status).then_some(&mut status[..]),
-                d_pressure: law
-                    .writes(OutputItem::DPressure)
-                    .then_some(&mut d_pressure[..]),
+                d_pressure: law.writes(OutputItem::DPressure).then_some(&mut d_pressure[..]),
             };
             match worker.call(&single, &mut outputs, POINT_DEADLINE.min(self.deadline())) {
                 Ok(_) if Instant::now() < end => {}

@@ -92,14 +92,8 @@ impl Shared {
 
     /// The address of a range that lies in the memory.
     pub(super) fn at(&self, offset: usize, length: usize) -> *mut u64 {
-        let end = offset
-            .checked_add(length)
-            .expect("a range of words ends below the largest number");
-        assert!(
-            end <= self.len(),
-            "words {offset} to {end} of {}",
-            self.len()
-        );
+        let end = offset.checked_add(length).expect("a range of words ends below the largest number");
+        assert!(end <= self.len(), "words {offset} to {end} of {}", self.len());
         self.map.as_mut_ptr().cast::<u64>().wrapping_add(offset)
     }
 

@@ -49,13 +49,7 @@ pub fn worker_main(arguments: &[String], embedded: FindEmbedded<'_>) -> i32 {
 
 /// Rust's runtime catches these to tell a stack overflow; a law's own fault must end the process at once.
 fn reset_signals() {
-    for signal in [
-        libc::SIGSEGV,
-        libc::SIGBUS,
-        libc::SIGABRT,
-        libc::SIGFPE,
-        libc::SIGILL,
-    ] {
+    for signal in [libc::SIGSEGV, libc::SIGBUS, libc::SIGABRT, libc::SIGFPE, libc::SIGILL] {
         // SAFETY: setting the default action needs no handler and is allowed for all of these.
         unsafe { libc::signal(signal, libc::SIG_DFL) };
     }
@@ -68,12 +62,7 @@ fn keep_from_children(channels: Channels) {
     }
 }
 
-fn serve(
-    from: &mut File,
-    to: &mut File,
-    memory: &mut Shared,
-    embedded: FindEmbedded<'_>,
-) -> io::Result<()> {
+fn serve(from: &mut File, to: &mut File, memory: &mut Shared, embedded: FindEmbedded<'_>) -> io::Result<()> {
     let mut law: Option<LawInstance> = None;
     let mut tag = [0];
     loop {
@@ -88,10 +77,7 @@ fn serve(
                         warnings.extend(instance.take_warnings());
                         let descriptor = Box::new(instance.descriptor().clone());
                         law = Some(instance);
-                        Opened::Law {
-                            descriptor,
-                            warnings,
-                        }
+                        Opened::Law { descriptor, warnings }
                     }
                     Err(refused) => refused,
                 };
@@ -112,25 +98,14 @@ fn serve(
 }
 
 fn open(request: &Open, embedded: FindEmbedded<'_>) -> Result<(LawInstance, Vec<String>), Opened> {
-    let refused = |error: LoadError| Opened::Refused {
-        reason: error.to_string(),
-        code_has_run: error.code_has_run(),
-    };
+    let refused = |error: LoadError| Opened::Refused { reason: error.to_string(), code_has_run: error.code_has_run() };
     let plugin = match &request.source {
-        Source::File(path) => Plugin::open(
-            path,
-            &LoadOptions {
-                sha256: request.sha256.clone(),
-            },
-        ),
+        Source::File(path) => Plugin::open(path, &LoadOptions { sha256: request.sha256.clone() }),
         Source::Embedded(name) => match embedded(name) {
             Some(entry) => Plugin::from_entry(Arc::clone(&entry)),
             None => {
                 let reason = format!("this program holds no law `{name}`");
-                return Err(Opened::Refused {
-                    reason,
-                    code_has_run: false,
-                });
+                return Err(Opened::Refused { reason, code_has_run: false });
             }
         },
     };
@@ -147,8 +122,8 @@ fn evaluate(law: &LawInstance, memory: &Shared) -> io::Result<Ended> {
     let batch = batch_of(descriptor, &header, memory).map_err(io::Error::other)?;
     let points = header.points as usize;
     let widths = [1, 3, descriptor.state.len(), 1];
-    let [increment, direction, state, d_pressure] = [0, 1, 2, 3]
-        .map(|index| output::<f64>(memory, header.outputs[index], widths[index] * points));
+    let [increment, direction, state, d_pressure] =
+        [0, 1, 2, 3].map(|index| output::<f64>(memory, header.outputs[index], widths[index] * points));
     let mut nothing = [];
     let mut outputs = Outputs {
         increment: increment.unwrap_or(&mut nothing),
@@ -158,10 +133,7 @@ fn evaluate(law: &LawInstance, memory: &Shared) -> io::Result<Ended> {
         d_pressure,
     };
     let result = law.evaluate_watched(&batch, &mut outputs, |piece| memory.note(&piece));
-    Ok(Ended {
-        result,
-        warnings: law.take_warnings(),
-    })
+    Ok(Ended { result, warnings: law.take_warnings() })
 }
 
 /// The array of an output; the parent gave each a place of its own in the shared memory.
@@ -184,32 +156,16 @@ fn batch_of<'m>(
     let points = header.points as usize;
     let mut builder = Batch::builder(law, points).numbers(header.numbers);
     let mut columns = header.columns.iter();
-    let mut next = || {
-        columns.next().copied().unwrap_or(Place {
-            offset: protocol::ABSENT,
-            step: 0,
-        })
-    };
+    let mut next = || columns.next().copied().unwrap_or(Place { offset: protocol::ABSENT, step: 0 });
     for field in law.fields().iter() {
         let place = next();
         builder = match field.shape() {
             Shape::Index => builder.indices(field, indices(memory, place, points)),
-            shape => builder.field(
-                field,
-                values(memory, place, points, shape.width(), is_vector(field)),
-            ),
+            shape => builder.field(field, values(memory, place, points, shape.width(), is_vector(field))),
         };
     }
-    let constants: Vec<Values<'_>> = law
-        .constants
-        .iter()
-        .map(|_| values(memory, next(), points, 1, false))
-        .collect();
-    let inputs: Vec<Values<'_>> = law
-        .inputs
-        .iter()
-        .map(|_| values(memory, next(), points, 1, false))
-        .collect();
+    let constants: Vec<Values<'_>> = law.constants.iter().map(|_| values(memory, next(), points, 1, false)).collect();
+    let inputs: Vec<Values<'_>> = law.inputs.iter().map(|_| values(memory, next(), points, 1, false)).collect();
     builder = builder.constant_values(&constants).inputs(&inputs);
     if !law.state.is_empty() {
         builder = builder.state(values(memory, next(), points, law.state.len(), false));

@@ -23,31 +23,18 @@ pub(super) struct Axis {
 
 impl Axis {
     /// An axis from the smallest to the largest of `values`, with about `wanted` ticks.
-    pub fn spanning(
-        (quantity, unit): (&str, &str),
-        values: impl Iterator<Item = f64>,
-        wanted: usize,
-    ) -> Self {
+    pub fn spanning((quantity, unit): (&str, &str), values: impl Iterator<Item = f64>, wanted: usize) -> Self {
         let (low, high) = extent(values);
         Self::new((quantity, unit), low, high, wanted)
     }
 
     /// An axis that shows zero, so that heights can be compared, with room above the largest.
-    pub fn from_zero(
-        (quantity, unit): (&str, &str),
-        values: impl Iterator<Item = f64>,
-        wanted: usize,
-    ) -> Self {
+    pub fn from_zero((quantity, unit): (&str, &str), values: impl Iterator<Item = f64>, wanted: usize) -> Self {
         let (low, high) = extent(values);
         let (low, high) = (low.min(0.0), high.max(0.0));
         let room = 0.06 * (high / 2.0 - low / 2.0) * 2.0;
         let below = if low < 0.0 { low - room } else { 0.0 };
-        Self::new(
-            (quantity, unit),
-            below,
-            if high > 0.0 { high + room } else { high },
-            wanted,
-        )
+        Self::new((quantity, unit), below, if high > 0.0 { high + room } else { high }, wanted)
     }
 
     fn new((quantity, unit): (&str, &str), low: f64, high: f64, wanted: usize) -> Self {
@@ -69,26 +56,14 @@ impl Axis {
         if quantity == COUNT && step * factor < 1.0 {
             (step, decimals) = (1.0 / factor, 0);
         }
-        let (first, last) = (
-            (low / step - 1e-6).ceil() as i64,
-            (high / step + 1e-6).floor() as i64,
-        );
+        let (first, last) = ((low / step - 1e-6).ceil() as i64, (high / step + 1e-6).floor() as i64);
         let ticks = (first..=last)
             .map(|i| {
                 let at = i as f64 * step;
-                (
-                    (at - low) / (high - low),
-                    format!("{at:.decimals$}").replace('-', "−"),
-                )
+                ((at - low) / (high - low), format!("{at:.decimals$}").replace('-', "−"))
             })
             .collect();
-        Self {
-            caption: caption(quantity, unit, exponent),
-            ticks,
-            low,
-            high,
-            factor,
-        }
+        Self { caption: caption(quantity, unit, exponent), ticks, low, high, factor }
     }
 
     /// Where a value stands, as a fraction of the length.
@@ -101,9 +76,7 @@ impl Axis {
 fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values
         .filter(|value| value.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-            (low.min(v), high.max(v))
-        });
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     if low <= high { (low, high) } else { (0.0, 0.0) }
 }
 
@@ -121,11 +94,7 @@ fn tick_step(rough: f64) -> (f64, usize) {
 }
 
 fn caption(quantity: &str, unit: &str, exponent: i32) -> String {
-    let power = if exponent == 0 {
-        String::new()
-    } else {
-        format!("10{}", superscript(exponent))
-    };
+    let power = if exponent == 0 { String::new() } else { format!("10{}", superscript(exponent)) };
     match (power.as_str(), unit) {
         ("", "") => quantity.to_owned(),
         (only, "") | ("", only) => format!("{quantity} ({only})"),
@@ -151,14 +120,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 fn trimmed(digits: &str) -> String {
-    if digits.contains('.') {
-        digits
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_owned()
-    } else {
-        digits.to_owned()
-    }
+    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.').to_owned() } else { digits.to_owned() }
 }
 
 fn superscript(exponent: i32) -> String {
@@ -202,10 +164,7 @@ mod tests {
         ];
         for values in cases {
             let many = values.iter().copied();
-            for axis in [
-                Axis::spanning(("q", ""), many.clone(), 5),
-                Axis::from_zero(("q", ""), many.clone(), 5),
-            ] {
+            for axis in [Axis::spanning(("q", ""), many.clone(), 5), Axis::from_zero(("q", ""), many.clone(), 5)] {
                 assert!((2..=12).contains(&axis.ticks.len()), "{values:?}: {axis:?}");
                 for (at, _) in &axis.ticks {
                     assert!((-1e-5..=1.0 + 1e-5).contains(at), "{values:?}: {axis:?}");
@@ -217,10 +176,7 @@ mod tests {
             }
         }
         let both = Axis::spanning(("q", "m"), [-1e-4, 3e-5].into_iter(), 5);
-        assert_eq!(
-            labels(&both),
-            ["−100", "−80", "−60", "−40", "−20", "0", "20"]
-        );
+        assert_eq!(labels(&both), ["−100", "−80", "−60", "−40", "−20", "0", "20"]);
     }
 
     #[test]

@@ -28,12 +28,7 @@ pub(super) struct Curve {
 impl Curve {
     /// A curve through the points; points beyond the shorter of both are not drawn.
     pub fn new(name: &'static str, look: Look, points: impl Iterator<Item = (f64, f64)>) -> Self {
-        Self {
-            name,
-            look,
-            points: points.collect(),
-            dots: true,
-        }
+        Self { name, look, points: points.collect(), dots: true }
     }
 
     /// Whether every point is shown as a dot.
@@ -52,9 +47,7 @@ impl Curve {
                     return run.to_vec();
                 }
                 let column = |x: f64| (fraction(x) * COLUMNS as f64).floor();
-                run.chunk_by(|a, b| column(a.0) == column(b.0))
-                    .flat_map(outline)
-                    .collect()
+                run.chunk_by(|a, b| column(a.0) == column(b.0)).flat_map(outline).collect()
             })
             .collect()
     }
@@ -77,9 +70,7 @@ mod tests {
 
     #[test]
     fn thinning_keeps_ends_and_peaks() {
-        let mut points: Vec<(f64, f64)> = (0..100_000)
-            .map(|i| (f64::from(i), (f64::from(i) * 0.7).sin()))
-            .collect();
+        let mut points: Vec<(f64, f64)> = (0..100_000).map(|i| (f64::from(i), (f64::from(i) * 0.7).sin())).collect();
         points[54_321].1 = 9.0;
         points[54_322].1 = -9.0;
         let curve = Curve::new("", Look::End, points.iter().copied());

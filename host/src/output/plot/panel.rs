@@ -38,33 +38,16 @@ impl Panel {
     /// Draws the panel; `place` is the rectangle of the axes, captions and labels stand around it.
     pub fn draw(&self, sheet: &Sheet<'_>, place: Place) -> Result<(), Failure> {
         self.draw_axes(sheet, place)?;
-        write(
-            sheet,
-            &self.up.caption,
-            (place.left, place.top - 16.0),
-            Style::title(15.0),
-        )?;
+        write(sheet, &self.up.caption, (place.left, place.top - 16.0), Style::title(15.0))?;
         let middle = (place.left + place.right) / 2.0;
         let below = (middle, place.bottom + 40.0);
-        write(
-            sheet,
-            &self.across.caption,
-            below,
-            Style::centred(13.0, INK),
-        )?;
+        write(sheet, &self.across.caption, below, Style::centred(13.0, INK))?;
         self.draw_legend(sheet, place)?;
-        self.curves
-            .iter()
-            .try_for_each(|curve| self.draw_curve(sheet, place, curve))
+        self.curves.iter().try_for_each(|curve| self.draw_curve(sheet, place, curve))
     }
 
     fn draw_axes(&self, sheet: &Sheet<'_>, place: Place) -> Result<(), Failure> {
-        let Place {
-            left,
-            top,
-            right,
-            bottom,
-        } = place;
+        let Place { left, top, right, bottom } = place;
         for (at, label) in &self.up.ticks {
             let y = bottom - at * (bottom - top);
             line(sheet, &[(left, y), (right, y)], GRID, 1.0)?;
@@ -74,28 +57,14 @@ impl Panel {
             let x = left + at * (right - left);
             line(sheet, &[(x, top), (x, bottom)], GRID, 1.0)?;
             line(sheet, &[(x, bottom), (x, bottom + 5.0)], AXIS, 1.0)?;
-            write(
-                sheet,
-                label,
-                (x, bottom + 17.0),
-                Style::centred(12.0, QUIET),
-            )?;
+            write(sheet, label, (x, bottom + 17.0), Style::centred(12.0, QUIET))?;
         }
-        line(
-            sheet,
-            &[(left, top), (left, bottom), (right, bottom)],
-            AXIS,
-            1.25,
-        )
+        line(sheet, &[(left, top), (left, bottom), (right, bottom)], AXIS, 1.25)
     }
 
     /// The legend stands in the row of the caption, where no curve can run.
     fn draw_legend(&self, sheet: &Sheet<'_>, place: Place) -> Result<(), Failure> {
-        let named: Vec<&Curve> = self
-            .curves
-            .iter()
-            .filter(|curve| !curve.name.is_empty())
-            .collect();
+        let named: Vec<&Curve> = self.curves.iter().filter(|curve| !curve.name.is_empty()).collect();
         let y = place.top - 16.0;
         for (i, curve) in named.iter().enumerate() {
             let right = place.right - 84.0 * i as f64;
@@ -149,29 +118,16 @@ fn stroke_curve(sheet: &Sheet<'_>, points: &[(f64, f64)], look: Look) -> Result<
 fn dot(sheet: &Sheet<'_>, at: (f64, f64), look: Look) -> Result<(), Failure> {
     let radius = 3.5 * f64::from(FINE);
     match look {
-        Look::End => sheet.draw(&Circle::new(
-            fine(at),
-            radius as u32,
-            ShapeStyle::from(colour(look)).filled(),
-        )),
+        Look::End => sheet.draw(&Circle::new(fine(at), radius as u32, ShapeStyle::from(colour(look)).filled())),
         Look::Start => {
             let paper = ShapeStyle::from(RGBColor(255, 255, 255)).filled();
             sheet.draw(&Circle::new(fine(at), radius as u32, paper))?;
-            sheet.draw(&Circle::new(
-                fine(at),
-                radius as u32,
-                stroke(colour(look), 1.75),
-            ))
+            sheet.draw(&Circle::new(fine(at), radius as u32, stroke(colour(look), 1.75)))
         }
     }
 }
 
-fn line(
-    sheet: &Sheet<'_>,
-    points: &[(f64, f64)],
-    colour: RGBColor,
-    width: f64,
-) -> Result<(), Failure> {
+fn line(sheet: &Sheet<'_>, points: &[(f64, f64)], colour: RGBColor, width: f64) -> Result<(), Failure> {
     let points: Vec<_> = points.iter().map(|&at| fine(at)).collect();
     sheet.draw(&PathElement::new(points, stroke(colour, width)))
 }
@@ -183,10 +139,7 @@ fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
 /// Fills the whole figure.
 pub(super) fn paper(sheet: &Sheet<'_>, (width, height): (f64, f64)) -> Result<(), Failure> {
     let white = ShapeStyle::from(RGBColor(255, 255, 255)).filled();
-    sheet.draw(&Rectangle::new(
-        [fine((0.0, 0.0)), fine((width, height))],
-        white,
-    ))
+    sheet.draw(&Rectangle::new([fine((0.0, 0.0)), fine((width, height))], white))
 }
 
 /// How a piece of text is set: size in pixels, colour, weight, and which end stands at its place.
@@ -200,50 +153,27 @@ pub(super) struct Style {
 
 impl Style {
     pub fn left(size: f64, colour: RGBColor) -> Self {
-        Self {
-            size,
-            colour,
-            bold: false,
-            anchor: HPos::Left,
-        }
+        Self { size, colour, bold: false, anchor: HPos::Left }
     }
 
     pub fn title(size: f64) -> Self {
-        Self {
-            bold: true,
-            ..Self::left(size, INK)
-        }
+        Self { bold: true, ..Self::left(size, INK) }
     }
 
     fn right(size: f64) -> Self {
-        Self {
-            anchor: HPos::Right,
-            ..Self::left(size, QUIET)
-        }
+        Self { anchor: HPos::Right, ..Self::left(size, QUIET) }
     }
 
     fn centred(size: f64, colour: RGBColor) -> Self {
-        Self {
-            anchor: HPos::Center,
-            ..Self::left(size, colour)
-        }
+        Self { anchor: HPos::Center, ..Self::left(size, colour) }
     }
 }
 
 /// Writes text, centred in height on its place.
-pub(super) fn write(
-    sheet: &Sheet<'_>,
-    text: &str,
-    at: (f64, f64),
-    style: Style,
-) -> Result<(), Failure> {
+pub(super) fn write(sheet: &Sheet<'_>, text: &str, at: (f64, f64), style: Style) -> Result<(), Failure> {
     // The drawing library divides sizes by 1.24 on their way into the file.
     let size = style.size * f64::from(FINE) * 1.24;
-    let weight = if style.bold {
-        FontStyle::Bold
-    } else {
-        FontStyle::Normal
-    };
+    let weight = if style.bold { FontStyle::Bold } else { FontStyle::Normal };
     let font = TextStyle::from((FONT, size, weight).into_font())
         .color(&style.colour)
         .pos(Pos::new(style.anchor, VPos::Center));

@@ -3,18 +3,11 @@ use super::*;
 /// The cases that a reader should look at: `WEARLAW_PLOT_DIR=somewhere cargo test plot` keeps them.
 fn shown(name: &str, figure: &Figure<'_>) -> String {
     let svg = draw(figure).unwrap();
-    assert_eq!(
-        svg,
-        draw(figure).unwrap(),
-        "{name}: the same record gives the same bytes"
-    );
+    assert_eq!(svg, draw(figure).unwrap(), "{name}: the same record gives the same bytes");
     if let Some(folder) = std::env::var_os("WEARLAW_PLOT_DIR") {
         std::fs::write(Path::new(&folder).join(format!("{name}.svg")), &svg).unwrap();
     }
-    assert!(
-        svg.starts_with("<svg width=\"1000\" height=\"700\" stroke-linejoin"),
-        "{svg:.200}"
-    );
+    assert!(svg.starts_with("<svg width=\"1000\" height=\"700\" stroke-linejoin"), "{svg:.200}");
     assert!(svg.trim_end().ends_with("</svg>"));
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
     check_coordinates(name, &svg);
@@ -28,10 +21,7 @@ fn check_coordinates(name: &str, svg: &str) {
         for point in list.split('"').next().unwrap().split_whitespace() {
             let (x, y) = point.split_once(',').unwrap();
             let (x, y): (f64, f64) = (x.parse().unwrap(), y.parse().unwrap());
-            assert!(
-                (0.0..=width).contains(&x) && (0.0..=height).contains(&y),
-                "{name}: {point}"
-            );
+            assert!((0.0..=width).contains(&x) && (0.0..=height).contains(&y), "{name}: {point}");
         }
     }
 }
@@ -54,18 +44,11 @@ fn history(steps: usize, scale: f64, volume: bool) -> History {
 }
 
 fn scar(points: usize, scale: f64) -> Profile<'static> {
-    let x: Vec<f64> = (0..points)
-        .map(|i| (i as f64 / (points - 1) as f64 - 0.5) * 6e-4)
-        .collect();
+    let x: Vec<f64> = (0..points).map(|i| (i as f64 / (points - 1) as f64 - 0.5) * 6e-4).collect();
     let hertz = |radius: f64, peak: f64| -> Vec<f64> {
-        x.iter()
-            .map(|x| scale * peak * (1.0 - (x / radius).powi(2)).max(0.0).sqrt())
-            .collect()
+        x.iter().map(|x| scale * peak * (1.0 - (x / radius).powi(2)).max(0.0).sqrt()).collect()
     };
-    let wear = x
-        .iter()
-        .map(|x| scale * 7.3e-6 * (1.0 - (x / 2.6e-4).powi(2)).max(0.0))
-        .collect();
+    let wear = x.iter().map(|x| scale * 7.3e-6 * (1.0 - (x / 2.6e-4).powi(2)).max(0.0)).collect();
     Profile {
         axis: "x".into(),
         unit: "m".into(),
@@ -77,18 +60,8 @@ fn scar(points: usize, scale: f64) -> Profile<'static> {
     }
 }
 
-fn figure<'a>(
-    title: &'a str,
-    units: &'a Units,
-    history: &'a History,
-    profile: Option<&'a Profile<'a>>,
-) -> Figure<'a> {
-    Figure {
-        title,
-        units,
-        history,
-        profile,
-    }
+fn figure<'a>(title: &'a str, units: &'a Units, history: &'a History, profile: Option<&'a Profile<'a>>) -> Figure<'a> {
+    Figure { title, units, history, profile }
 }
 
 #[test]
@@ -118,19 +91,12 @@ fn one_point_shows_its_loading_instead_of_a_profile() {
     assert!(svg.contains("Largest contact pressure (10⁹ Pa)"));
     assert!(svg.contains("Sliding velocity, mean over each step (m/s)"));
     assert!(svg.contains("Sliding distance (m)") && !svg.contains("Worn volume"));
-    assert!(
-        !svg.contains(">\nstart\n<"),
-        "a single curve needs no legend"
-    );
+    assert!(!svg.contains(">\nstart\n<"), "a single curve needs no legend");
 }
 
 #[test]
 fn small_huge_and_no_numbers_are_drawn() {
-    let mm = Units {
-        length: "mm".into(),
-        per_length: true,
-        ..Units::default()
-    };
+    let mm = Units { length: "mm".into(), per_length: true, ..Units::default() };
     for (name, scale) in [("tiny", 1e-12), ("huge", 1e40), ("zeros", 0.0)] {
         let (history, profile) = (history(50, scale, true), scar(60, scale));
         let svg = shown(name, &figure(name, &mm, &history, Some(&profile)));
@@ -142,16 +108,11 @@ fn small_huge_and_no_numbers_are_drawn() {
 #[test]
 fn a_single_step_or_none_or_gaps_are_drawn() {
     let units = Units::default();
-    let single = History {
-        rows: history(1, 1.0, true).rows.split_off(1),
-    };
+    let single = History { rows: history(1, 1.0, true).rows.split_off(1) };
     let svg = shown("single-step", &figure("Single step", &units, &single, None));
     assert!(svg.contains("<circle"), "a single instant is a dot");
     let two = history(1, 1.0, true);
-    shown(
-        "two-rows",
-        &figure("Start and one step", &units, &two, Some(&scar(5, 1.0))),
-    );
+    shown("two-rows", &figure("Start and one step", &units, &two, Some(&scar(5, 1.0))));
     let none = History::default();
     let svg = shown("none", &figure("Nothing", &units, &none, None));
     assert!(svg.contains("no step was accepted"));
@@ -170,10 +131,7 @@ fn a_long_history_and_noise_stay_small() {
     for (i, wear) in profile.wear_end.to_mut().iter_mut().enumerate() {
         *wear *= 1.0 + 0.2 * (i as f64 * 1.7).sin();
     }
-    let svg = shown(
-        "long",
-        &figure("Fretting, 200 000 steps", &units, &history, Some(&profile)),
-    );
+    let svg = shown("long", &figure("Fretting, 200 000 steps", &units, &history, Some(&profile)));
     assert!(svg.len() < 300_000, "{} bytes", svg.len());
 }
 
@@ -183,10 +141,7 @@ fn point_numbers_are_shown_with_dots_while_they_are_few() {
     let mut profile = scar(7, 1.0);
     profile.coordinate = (1..=7).map(f64::from).collect();
     (profile.axis, profile.unit) = ("point".into(), String::new());
-    let svg = shown(
-        "numbered",
-        &figure("Nodes", &units, &history, Some(&profile)),
-    );
+    let svg = shown("numbered", &figure("Nodes", &units, &history, Some(&profile)));
     assert!(svg.contains("Point number") && svg.contains("<circle"));
 }
 

@@ -43,17 +43,11 @@ fn a_file_appears_whole_or_stays_as_it_was() {
     });
     let error = failed.unwrap_err().to_string();
     assert!(error.starts_with("could not write ") && error.contains("history.csv: no more"));
-    assert_eq!(
-        (read(&path).as_str(), listing(place.path()).len()),
-        ("old", 1)
-    );
+    assert_eq!((read(&path).as_str(), listing(place.path()).len()), ("old", 1));
     write_file(&path, |to| to.write_all(b"new")).unwrap();
     assert_eq!(read(&path), "new");
     let missing = write_file(&place.path().join("no/such/file"), |_| Ok(())).unwrap_err();
-    assert!(
-        missing.to_string().contains("could not create"),
-        "{missing}"
-    );
+    assert!(missing.to_string().contains("could not create"), "{missing}");
 }
 
 #[cfg(unix)]
@@ -90,27 +84,15 @@ fn a_new_folder_appears_at_once_and_only_when_committed() {
 fn a_later_result_replaces_an_earlier_one_and_keeps_what_is_not_its_own() {
     let place = tempfile::tempdir().unwrap();
     let target = place.path().join("run.out");
-    result(
-        &target,
-        "first",
-        &["plot.svg", "fields/fields-000001.vtp", "fields/fields.pvd"],
-    )
-    .unwrap();
+    result(&target, "first", &["plot.svg", "fields/fields-000001.vtp", "fields/fields.pvd"]).unwrap();
     put(&target.join("notes.txt"), "mine");
     put(&target.join("fields/view.pvsm"), "mine");
     result(&target, "second", &["history.csv"]).unwrap();
-    assert_eq!(
-        listing(&target),
-        ["fields/view.pvsm", "history.csv", "notes.txt", REPORT]
-    );
+    assert_eq!(listing(&target), ["fields/view.pvsm", "history.csv", "notes.txt", REPORT]);
     assert_eq!(read(&target.join(REPORT)), "second");
     fs::remove_file(target.join("fields/view.pvsm")).unwrap();
     result(&target, "third", &[]).unwrap();
-    assert_eq!(
-        names_in(&target).unwrap(),
-        ["notes.txt", REPORT],
-        "no empty folder stays"
-    );
+    assert_eq!(names_in(&target).unwrap(), ["notes.txt", REPORT], "no empty folder stays");
 }
 
 #[test]
@@ -121,17 +103,8 @@ fn a_failed_replacement_leaves_the_earlier_result() {
     put(&target.join("extra.txt"), "mine");
     let error = result(&target, "second", &["history.csv", "extra.txt"]).unwrap_err();
     assert!(matches!(&error, OutputError::InTheWay { path } if path.ends_with("extra.txt")));
-    assert_eq!(
-        names_in(&target).unwrap(),
-        ["extra.txt", "history.csv", REPORT]
-    );
-    assert_eq!(
-        (
-            read(&target.join(REPORT)),
-            read(&target.join("history.csv"))
-        ),
-        ("first".into(), "first".into())
-    );
+    assert_eq!(names_in(&target).unwrap(), ["extra.txt", "history.csv", REPORT]);
+    assert_eq!((read(&target.join(REPORT)), read(&target.join("history.csv"))), ("first".into(), "first".into()));
     assert_eq!(read(&target.join("extra.txt")), "mine");
 }
 
@@ -139,13 +112,8 @@ fn a_failed_replacement_leaves_the_earlier_result() {
 fn a_folder_of_something_else_is_refused() {
     let place = tempfile::tempdir().unwrap();
     put(&place.path().join("thesis/chapter.tex"), "mine");
-    let error = WholeFolder::begin(&place.path().join("thesis"))
-        .unwrap_err()
-        .to_string();
-    assert!(
-        error.contains("holds chapter.tex and no report.json"),
-        "{error}"
-    );
+    let error = WholeFolder::begin(&place.path().join("thesis")).unwrap_err().to_string();
+    assert!(error.contains("holds chapter.tex and no report.json"), "{error}");
     let error = WholeFolder::begin(&place.path().join("thesis/chapter.tex")).unwrap_err();
     assert!(matches!(error, OutputError::NotAFolder { .. }));
     fs::create_dir(place.path().join("empty")).unwrap();
@@ -158,15 +126,11 @@ fn an_interrupted_run_leaves_its_checkpoint_and_can_be_followed() {
     let place = tempfile::tempdir().unwrap();
     let target = place.path().join("run.out");
     let folder = WholeFolder::begin(&target).unwrap();
-    folder
-        .write_now(CHECKPOINT, |to| to.write_all(b"bits"))
-        .unwrap();
+    folder.write_now(CHECKPOINT, |to| to.write_all(b"bits")).unwrap();
     drop(folder);
     assert_eq!(listing(place.path()), ["run.out/checkpoint"]);
     let folder = WholeFolder::begin(&target).unwrap();
-    folder
-        .write_now(CHECKPOINT, |to| to.write_all(b"more"))
-        .unwrap();
+    folder.write_now(CHECKPOINT, |to| to.write_all(b"more")).unwrap();
     put(&folder.path().join(REPORT), "{}");
     put(&folder.path().join(CHECKPOINT), "last");
     folder.commit().unwrap();
@@ -186,18 +150,13 @@ fn a_resumed_run_keeps_the_fields_it_wrote_before() {
     let names = ["fields/fields-000001.csv", "fields/fields-000002.csv"];
     result(&target, "first", &names).unwrap();
     let mut folder = WholeFolder::begin(&target).unwrap();
-    folder
-        .write_now("fields/fields-000003.csv", |_| Ok(()))
-        .unwrap();
+    folder.write_now("fields/fields-000003.csv", |_| Ok(())).unwrap();
     for step in 2..=3 {
         folder.keep(format!("fields/fields-{step:06}.csv"));
     }
     put(&folder.path().join(REPORT), "second");
     put(&folder.path().join(names[1]), "second");
     folder.commit().unwrap();
-    assert_eq!(
-        listing(&target),
-        [names[1], "fields/fields-000003.csv", REPORT]
-    );
+    assert_eq!(listing(&target), [names[1], "fields/fields-000003.csv", REPORT]);
     assert_eq!(read(&target.join(names[1])), "second");
 }

@@ -154,20 +154,8 @@ fn keys_that_exclude_or_need_one_another() {
 #[test]
 fn shares_digests_and_directions() {
     let law = |line: &str| format!("use = \"a\"\n{line}");
-    bad(
-        "use = \"archard\"",
-        &law("share = [0.6, 0.5]"),
-        "found shares that sum to 1.1",
-        3,
-        9,
-    );
-    bad(
-        "use = \"archard\"",
-        &law("share = [1.0]"),
-        "found 1 entry for `law.share`, expected 2",
-        3,
-        9,
-    );
+    bad("use = \"archard\"", &law("share = [0.6, 0.5]"), "found shares that sum to 1.1", 3, 9);
+    bad("use = \"archard\"", &law("share = [1.0]"), "found 1 entry for `law.share`, expected 2", 3, 9);
     bad(
         "use = \"archard\"",
         &law("share = [1.5, -0.5]"),
@@ -203,56 +191,23 @@ fn shares_digests_and_directions() {
         3,
         13,
     );
-    bad(
-        "use = \"archard\"",
-        &law("direction = [0, inf, 1]"),
-        "found inf for `law.direction.1`",
-        3,
-        17,
-    );
+    bad("use = \"archard\"", &law("direction = [0, inf, 1]"), "found inf for `law.direction.1`", 3, 17);
     let plane = PRESCRIBED.replace("model =", "dimension = 2\nmodel =");
-    refused(
-        &plane,
-        LAW,
-        &law("direction = [0, 1, 1]"),
-        "found a y component of 1.0",
-        3,
-        13,
-    );
-    refused(
-        &plane,
-        LAW,
-        &law("direction = [1]"),
-        "found 1 entry for `law.direction`, expected 2",
-        3,
-        13,
-    );
+    refused(&plane, LAW, &law("direction = [0, 1, 1]"), "found a y component of 1.0", 3, 13);
+    refused(&plane, LAW, &law("direction = [1]"), "found 1 entry for `law.direction`, expected 2", 3, 13);
 }
 
 #[test]
 fn tables_form_a_grid() {
     let table = |rows: &[&str]| {
-        let rows: Vec<String> = rows
-            .iter()
-            .map(|row| format!("[[law.table]]\n{row}\n"))
-            .collect();
+        let rows: Vec<String> = rows.iter().map(|row| format!("[[law.table]]\n{row}\n")).collect();
         PRESCRIBED.replace(CONSTANTS, &rows.concat())
     };
-    let row = |rows: &[&str], message: &str, line, column| {
-        refused(&table(rows), LAW, LAW, message, line, column)
-    };
-    row(
-        &["constants = [1]"],
-        "with neither `time` nor `temperature`",
-        3,
-        1,
-    );
+    let row = |rows: &[&str], message: &str, line, column| refused(&table(rows), LAW, LAW, message, line, column);
+    row(&["constants = [1]"], "with neither `time` nor `temperature`", 3, 1);
     row(&["time = 0"], "found no `constants` in `law.table.0`", 3, 1);
     row(
-        &[
-            "time = 0\nconstants = [1]",
-            "temperature = 0\nconstants = [1]",
-        ],
+        &["time = 0\nconstants = [1]", "temperature = 0\nconstants = [1]"],
         "with `temperature` alone, expected `time` alone",
         6,
         1,
@@ -264,22 +219,13 @@ fn tables_form_a_grid() {
         1,
     );
     row(
-        &[
-            "time = 0\nconstants = { K = 1 }",
-            "time = 1\nconstants = { H = 1 }",
-        ],
+        &["time = 0\nconstants = { K = 1 }", "time = 1\nconstants = { H = 1 }"],
         "with the constants `H`, expected the constants `K` as in the first row",
         6,
         1,
     );
-    row(
-        &["time = 0\nconstants = [1]", "time = 0.0\nconstants = [1]"],
-        "a second row of `law.table` at time 0.0",
-        6,
-        1,
-    );
-    let corner =
-        |time, temperature| format!("time = {time}\ntemperature = {temperature}\nconstants = [1]");
+    row(&["time = 0\nconstants = [1]", "time = 0.0\nconstants = [1]"], "a second row of `law.table` at time 0.0", 6, 1);
+    let corner = |time, temperature| format!("time = {time}\ntemperature = {temperature}\nconstants = [1]");
     let (a, b, c) = (corner(0, 20), corner(0, 80), corner(1, 20));
     row(
         &[&a, &b, &c],
@@ -298,13 +244,7 @@ fn ramps_have_two_ends() {
         "#,
     );
     let two = "velocity = 0.2\n[[step]]\nduration = 1\npressure = 1\ntemperature = 3\nramp = [\"temperature\"]";
-    bad(
-        "velocity = 0.2",
-        two,
-        "found `temperature` in `step.1.ramp`, expected `step.0` to give it too",
-        16,
-        1,
-    );
+    bad("velocity = 0.2", two, "found `temperature` in `step.1.ramp`, expected `step.0` to give it too", 16, 1);
     assert!(parse(&PRESCRIBED.replace("velocity = 0.2", "ramp = [\"pressure\"]")).is_ok());
 }
 
@@ -320,12 +260,7 @@ fn text_that_is_no_toml() {
     let deep = format!("a = {}", "[".repeat(20_000));
     assert!(parse(&deep).is_err());
     assert!(parse(&format!("a{} = 1", ".a".repeat(20_000))).is_err());
-    assert!(
-        parse("")
-            .unwrap_err()
-            .to_string()
-            .contains("found no `contact`")
-    );
+    assert!(parse("").unwrap_err().to_string().contains("found no `contact`"));
 }
 
 #[test]
@@ -343,13 +278,7 @@ fn files_that_cannot_be_read() {
     let folder = tempfile::tempdir().unwrap();
     let missing = folder.path().join("none.toml");
     let error = Scene::read(&missing, &[]).unwrap_err();
-    assert_eq!(
-        *error.problem,
-        Problem::Read {
-            path: missing,
-            kind: std::io::ErrorKind::NotFound
-        }
-    );
+    assert_eq!(*error.problem, Problem::Read { path: missing, kind: std::io::ErrorKind::NotFound });
     assert!(error.to_string().contains("none.toml"), "{error}");
     assert!(error.render(false).contains("could not read"));
     let binary = folder.path().join("binary.toml");

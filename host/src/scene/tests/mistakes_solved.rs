@@ -21,9 +21,7 @@ fn keys_of_another_model() {
             load = 10.0 => load = 1\nfriction = 1 => found `step.0.friction` => 15:1
         "#,
     );
-    let foundation = HALF_SPACE
-        .replace("halfspace", "foundation")
-        .replace("modulus", "stiffness");
+    let foundation = HALF_SPACE.replace("halfspace", "foundation").replace("modulus", "stiffness");
     assert!(parse(&foundation).is_ok());
     refused(
         &foundation,
@@ -33,14 +31,7 @@ fn keys_of_another_model() {
         5,
         1,
     );
-    refused(
-        &foundation,
-        "stiffness = 1e11",
-        "",
-        "found no `stiffness` in `contact`",
-        3,
-        1 + 1,
-    );
+    refused(&foundation, "stiffness = 1e11", "", "found no `stiffness` in `contact`", 3, 1 + 1);
 }
 
 #[test]
@@ -84,26 +75,9 @@ fn shapes_have_their_keys() {
             radius = 5e-3 => radius = 5e-3\nwave = 3 => unknown key `wave` in `surface`, did you mean `waves`? => 12:1
         "#,
     );
-    let wavy = HALF_SPACE.replace(
-        "\"sphere\"\nradius = 5e-3",
-        "\"wavy\"\namplitude = 1\nwaves = [1, 1]",
-    );
-    refused(
-        &wavy,
-        "[1, 1]",
-        "[0, 0]",
-        "found 0 for `surface.waves`",
-        12,
-        9,
-    );
-    refused(
-        &wavy,
-        "[1, 1]",
-        "[1]",
-        "found 1 entry for `surface.waves`, expected 2",
-        12,
-        9,
-    );
+    let wavy = HALF_SPACE.replace("\"sphere\"\nradius = 5e-3", "\"wavy\"\namplitude = 1\nwaves = [1, 1]");
+    refused(&wavy, "[1, 1]", "[0, 0]", "found 0 for `surface.waves`", 12, 9);
+    refused(&wavy, "[1, 1]", "[1]", "found 1 entry for `surface.waves`, expected 2", 12, 9);
     let rough = "\"rough\"\nhurst = 0.8\nrms_slope = 0.1\nroll_off = 4\ncut_off = 64";
     let rough = HALF_SPACE.replace("\"sphere\"\nradius = 5e-3", rough);
     assert!(parse(&rough).is_ok());
@@ -115,14 +89,7 @@ fn shapes_have_their_keys() {
         14,
         11,
     );
-    refused(
-        &rough,
-        "hurst = 0.8",
-        "hurst = 1.1",
-        "above 0 and not above 1",
-        11,
-        9,
-    );
+    refused(&rough, "hurst = 0.8", "hurst = 1.1", "above 0 and not above 1", 11, 9);
 }
 
 #[test]
@@ -135,43 +102,19 @@ fn steps_press_in_one_way() {
         "#,
     );
     let after = "load = 10.0\n[[step]]\nduration = 1\napproach = 1\nramp = [\"approach\"]";
-    bad(
-        "load = 10.0",
-        after,
-        "found `approach` in `step.1.ramp`, expected `step.0` to give it too",
-        18,
-        1,
-    );
+    bad("load = 10.0", after, "found `approach` in `step.1.ramp`, expected `step.0` to give it too", 18, 1);
     let cycle = "load = 10.0\n[[cycle]]\ncount = 2\n[[cycle.step]]\nduration = 1\nload = 5\nramp = [\"load\"]\n[[cycle.step]]\nduration = 1\napproach = 5";
-    bad(
-        "load = 10.0",
-        cycle,
-        "found `load` in `cycle.0.step.0.ramp`, expected `cycle.0.step.1` to give it too",
-        20,
-        1,
-    );
-    assert!(
-        parse(&HALF_SPACE.replace("load = 10.0", &cycle.replace("count = 2", "count = 1"))).is_ok()
-    );
+    bad("load = 10.0", cycle, "found `load` in `cycle.0.step.0.ramp`, expected `cycle.0.step.1` to give it too", 20, 1);
+    assert!(parse(&HALF_SPACE.replace("load = 10.0", &cycle.replace("count = 2", "count = 1"))).is_ok());
 }
 
 #[test]
 fn a_datum_belongs_to_flat_free_contact_under_approach() {
     let condition = "found `contact.datum`, expected it only in 2-D contact with a free boundary under `approach`";
     bad("modulus", "datum = 1\nmodulus", condition, 5, 1);
-    let plane = HALF_SPACE
-        .replace(", 1e-3]", "]")
-        .replace(", 64]", "]")
-        .replace("modulus", "dimension = 2\nmodulus");
+    let plane = HALF_SPACE.replace(", 1e-3]", "]").replace(", 64]", "]").replace("modulus", "dimension = 2\nmodulus");
     refused(&plane, "modulus", "datum = 1\nmodulus", condition, 6, 1);
-    refused(
-        &plane,
-        "load",
-        "approach",
-        "found no `datum` in `contact`",
-        3,
-        2,
-    );
+    refused(&plane, "load", "approach", "found no `datum` in `contact`", 3, 2);
     let approach = plane.replace("load", "approach");
     assert!(parse(&approach.replace("modulus", "datum = 1\nmodulus")).is_ok());
     let periodic = approach.replace("modulus", "boundary = \"periodic\"\nmodulus");

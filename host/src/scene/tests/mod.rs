@@ -60,21 +60,11 @@ fn refused(base: &str, from: &str, to: &str, message: &str, line: usize, column:
     let found = error.to_string();
     assert!(found.contains(message), "{found:?} lacks {message:?}");
     let location = error.location.as_ref().expect("a place");
-    assert_eq!(
-        (location.line(), location.column()),
-        (line, column),
-        "{found}"
-    );
-    assert!(
-        found.contains(&format!("dir/scene.toml:{line}:{column}")),
-        "{found:?} lacks its place"
-    );
+    assert_eq!((location.line(), location.column()), (line, column), "{found}");
+    assert!(found.contains(&format!("dir/scene.toml:{line}:{column}")), "{found:?} lacks its place");
     assert!(!found.contains('\n'), "{found:?} is more than one line");
     let rendered = error.render(false);
-    assert!(
-        rendered.contains(text.lines().nth(line - 1).unwrap_or("").trim_end()),
-        "{rendered} lacks its line"
-    );
+    assert!(rendered.contains(text.lines().nth(line - 1).unwrap_or("").trim_end()), "{rendered} lacks its line");
     assert!(rendered.contains('^'), "{rendered} underlines nothing");
 }
 
@@ -83,18 +73,9 @@ fn refused(base: &str, from: &str, to: &str, message: &str, line: usize, column:
 fn refused_each(base: &str, cases: &str) {
     for case in cases.lines().map(str::trim).filter(|case| !case.is_empty()) {
         let parts: Vec<&str> = case.split(" => ").collect();
-        let [from, to, message, place] = parts.as_slice() else {
-            panic!("{case}")
-        };
+        let [from, to, message, place] = parts.as_slice() else { panic!("{case}") };
         let (line, column) = place.split_once(':').expect(case);
         let lines = |text: &str| text.replace("\\n", "\n");
-        refused(
-            base,
-            &lines(from),
-            &lines(to),
-            message,
-            line.parse().expect(case),
-            column.parse().expect(case),
-        );
+        refused(base, &lines(from), &lines(to), message, line.parse().expect(case), column.parse().expect(case));
     }
 }

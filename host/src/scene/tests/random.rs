@@ -44,10 +44,7 @@ const SCRAPS: &[&str] = &[
 ];
 
 fn survives(text: &str, overrides: &[String]) {
-    let overrides: Vec<Override> = overrides
-        .iter()
-        .map(|text| Override(text.clone()))
-        .collect();
+    let overrides: Vec<Override> = overrides.iter().map(|text| Override(text.clone())).collect();
     match Scene::parse(text, "a.toml", &overrides) {
         Ok(scene) => {
             let again = Scene::parse(&scene.toml(), "a.toml", &[]);

@@ -34,7 +34,5 @@ fn values(history: &History, column: Column) -> Vec<f64> {
 fn fault(name: &str, content: &[u8], needs: &Needs) -> String {
     let (folder, path) = file(name, content);
     let error: HistoryError = History::read(&path, needs).expect_err("an error");
-    error
-        .to_string()
-        .replace(&format!("{}/", folder.path().display()), "")
+    error.to_string().replace(&format!("{}/", folder.path().display()), "")
 }

@@ -1,7 +1,5 @@
 use super::{fault, file, pressure_and_velocity, values};
-use crate::contact::prescribed::{
-    Column, Header, History, Layout, Motion, Needs, PointIds, RowView, Samples,
-};
+use crate::contact::prescribed::{Column, Header, History, Layout, Motion, Needs, PointIds, RowView, Samples};
 use proptest::prelude::*;
 use proptest::sample::Index;
 
@@ -52,23 +50,13 @@ fn columns_are_kept_as_small_as_they_are() {
     let history = read(SORTED, &needs);
     let layout = |column| {
         let data = history.data(column).unwrap();
-        (
-            data.samples.as_slice().len(),
-            data.time_step,
-            data.point_step,
-        )
+        (data.samples.as_slice().len(), data.time_step, data.point_step)
     };
     assert_eq!(layout(Column::Pressure), (12, 3, 1));
     assert_eq!(layout(Column::Velocity), (4, 1, 0));
     assert_eq!(layout(Column::Temperature), (3, 0, 1));
-    let constant = read(
-        "time,point,pressure\n0,0,7\n0,1,7\n1,0,7\n1,1,7\n",
-        &Needs::of(&[Column::Pressure]),
-    );
-    assert_eq!(
-        constant.data(Column::Pressure).unwrap().samples.as_slice(),
-        [7.0]
-    );
+    let constant = read("time,point,pressure\n0,0,7\n0,1,7\n1,0,7\n1,1,7\n", &Needs::of(&[Column::Pressure]));
+    assert_eq!(constant.data(Column::Pressure).unwrap().samples.as_slice(), [7.0]);
     assert_eq!(values(&constant, Column::Pressure), [7.0; 4]);
 }
 
@@ -79,10 +67,7 @@ fn a_column_that_nobody_needs_is_not_even_parsed() {
     assert!(history.data(Column::Temperature).is_none());
     assert_eq!(history.bytes(), 8 + 2 * 8);
     let told = fault("h.csv", text.as_bytes(), &Needs::of(&[Column::Temperature]));
-    assert_eq!(
-        told,
-        "h.csv: line 2, column 4 (`temperature`): found `warm`, expected a number"
-    );
+    assert_eq!(told, "h.csv: line 2, column 4 (`temperature`): found `warm`, expected a number");
 }
 
 proptest! {
@@ -136,55 +121,30 @@ fn values_run_linearly_between_rows() {
 
 #[test]
 fn one_time_is_enough_and_ids_may_look_like_decimals() {
-    let history = read(
-        "\u{feff}time,point,pressure\r\n0.0,0.0,-1\r\n0.0,1e0,2\r\n",
-        &Needs::of(&[Column::Pressure]),
-    );
+    let history = read("\u{feff}time,point,pressure\r\n0.0,0.0,-1\r\n0.0,1e0,2\r\n", &Needs::of(&[Column::Pressure]));
     assert_eq!(history.times(), [0.0]);
     assert_eq!(history.intervals().count(), 0);
     assert_eq!(*history.point_ids(), PointIds::Counted(2));
-    assert_eq!(
-        values(&history, Column::Pressure),
-        [-1.0, 2.0],
-        "a negative pressure is kept: open"
-    );
-    assert!(matches!(
-        history.data(Column::Pressure).unwrap().samples,
-        Samples::Owned(_)
-    ));
+    assert_eq!(values(&history, Column::Pressure), [-1.0, 2.0], "a negative pressure is kept: open");
+    assert!(matches!(history.data(Column::Pressure).unwrap().samples, Samples::Owned(_)));
 }
 
 #[test]
 fn the_header_is_known_without_the_values() {
-    let (_folder, path) = file(
-        "h.csv",
-        b"# made by hand\ntime, point, pressure, slip\n0,0,x,x\n",
-    );
+    let (_folder, path) = file("h.csv", b"# made by hand\ntime, point, pressure, slip\n0,0,x,x\n");
     let header = Header::read(&path).unwrap();
     assert_eq!(header.names, ["time", "point", "pressure", "slip"]);
-    assert_eq!(
-        (header.layout, header.motion(), header.line),
-        (Layout::Csv, Motion::Slip, 2)
-    );
+    assert_eq!((header.layout, header.motion(), header.line), (Layout::Csv, Motion::Slip, 2));
     assert!(!header.has_column(Column::Temperature));
-    let error = header
-        .check(&Needs::of(&[Column::Temperature]))
-        .unwrap_err()
-        .to_string();
-    assert!(
-        error.ends_with("no column `temperature`, found time, point, pressure, slip"),
-        "{error}"
-    );
+    let error = header.check(&Needs::of(&[Column::Temperature])).unwrap_err().to_string();
+    assert!(error.ends_with("no column `temperature`, found time, point, pressure, slip"), "{error}");
 }
 
 #[test]
 fn parts_of_vectors_that_a_plane_lacks_are_zero() {
     let text = "time,point,nx,nz,sxx,szz,sxz,slip_x\n0,0,0,1,-1,-2,3,0\n1,0,0,1,-1,-2,3,4\n";
     let mut needs = Needs::of(&Column::STRESS);
-    Column::NORMAL
-        .iter()
-        .chain(&Column::SLIP_VECTOR)
-        .for_each(|c| needs.add(*c));
+    Column::NORMAL.iter().chain(&Column::SLIP_VECTOR).for_each(|c| needs.add(*c));
     let history = read(text, &needs);
     assert_eq!(values(&history, Column::NormalY), [0.0, 0.0]);
     assert_eq!(values(&history, Column::StressXy), [0.0, 0.0]);
@@ -196,10 +156,7 @@ fn parts_of_vectors_that_a_plane_lacks_are_zero() {
 fn further_inputs_are_read_by_name_or_passed_over() {
     let text = "time,point,pressure,film\n0,0,1,5e-6\n";
     let mut needs = Needs::of(&[Column::Pressure]);
-    assert!(
-        fault("h.csv", text.as_bytes(), &needs)
-            .contains("unknown column `film` at line 1, column 4")
-    );
+    assert!(fault("h.csv", text.as_bytes(), &needs).contains("unknown column `film` at line 1, column 4"));
     let mut passing = needs.clone();
     passing.allow("film");
     assert_eq!(read(text, &passing).bytes(), 16);
@@ -210,54 +167,24 @@ fn further_inputs_are_read_by_name_or_passed_over() {
 #[test]
 fn every_fault_of_the_names_is_told() {
     let cases = [
-        (
-            "",
-            "h.csv: empty file, expected a header row such as time,point,pressure",
-        ),
-        (
-            "# only\n# comments\n",
-            "h.csv: empty file, expected a header row such as time,point,pressure",
-        ),
-        (
-            "time,point,pressure,velocity\n",
-            "h.csv: no rows, expected at least one time and one point",
-        ),
+        ("", "h.csv: empty file, expected a header row such as time,point,pressure"),
+        ("# only\n# comments\n", "h.csv: empty file, expected a header row such as time,point,pressure"),
+        ("time,point,pressure,velocity\n", "h.csv: no rows, expected at least one time and one point"),
         (
             "time,point,presure\n0,0,1\n",
             "h.csv: unknown column `presure` at line 1, column 3; did you mean `pressure`?",
         ),
-        (
-            "time,point,pressure,time\n",
-            "h.csv: column `time` is given twice at line 1, column 4",
-        ),
-        (
-            "point,pressure,velocity\n",
-            "h.csv: no column `time`, found point, pressure, velocity",
-        ),
-        (
-            "time,pressure,velocity\n",
-            "h.csv: no column `point`, found time, pressure, velocity",
-        ),
-        (
-            "time,point,velocity\n",
-            "h.csv: no column `pressure`, found time, point, velocity",
-        ),
-        (
-            "time,point,pressure\n",
-            "h.csv: no column `velocity`, found time, point, pressure",
-        ),
-        (
-            "time,point,pressure,velocity,slip\n",
-            "h.csv: both `velocity` and `slip` are given, expected one of them",
-        ),
+        ("time,point,pressure,time\n", "h.csv: column `time` is given twice at line 1, column 4"),
+        ("point,pressure,velocity\n", "h.csv: no column `time`, found point, pressure, velocity"),
+        ("time,pressure,velocity\n", "h.csv: no column `point`, found time, pressure, velocity"),
+        ("time,point,velocity\n", "h.csv: no column `pressure`, found time, point, velocity"),
+        ("time,point,pressure\n", "h.csv: no column `velocity`, found time, point, pressure"),
+        ("time,point,pressure,velocity,slip\n", "h.csv: both `velocity` and `slip` are given, expected one of them"),
         (
             "time,point,pressure,velocity,slip_x\n",
             "h.csv: both `velocity` and `slip_x` are given, expected one of them",
         ),
-        (
-            "time,point,pressure,slip,slip_x\n",
-            "h.csv: both `slip` and `slip_x` are given, expected one of them",
-        ),
+        ("time,point,pressure,slip,slip_x\n", "h.csv: both `slip` and `slip_x` are given, expected one of them"),
     ];
     for (text, expected) in cases {
         assert_eq!(csv_fault(text), expected, "{text:?}");
@@ -270,10 +197,7 @@ fn every_fault_of_the_names_is_told() {
         ("sxx,szz,sxz,syy", "syy", "sxy"),
     ] {
         let told = csv_fault(&format!("time,point,pressure,{names}\n"));
-        assert!(
-            told.contains(&format!("`{present}` without `{missing}`")),
-            "{told}"
-        );
+        assert!(told.contains(&format!("`{present}` without `{missing}`")), "{told}");
     }
 }
 
@@ -281,34 +205,13 @@ fn every_fault_of_the_names_is_told() {
 fn every_fault_of_the_rows_is_told() {
     let rows = |rows: &str| csv_fault(&format!("# c\n\ntime,point,pressure,velocity\n# d\n{rows}"));
     let cases = [
-        (
-            "0,0,1,1\n0,1,x1,1\n",
-            "h.csv: line 6, column 3 (`pressure`): found `x1`, expected a number",
-        ),
-        (
-            ",0,1,1\n",
-            "h.csv: line 5, column 1 (`time`): found ``, expected a number",
-        ),
-        (
-            "0,0,1,1\n# e\n0,1,1,NaN\n",
-            "h.csv: line 7, column 4 (`velocity`): found `NaN`, expected a finite number",
-        ),
-        (
-            "0,0,1e400,1\n",
-            "h.csv: line 5, column 3 (`pressure`): found `1e400`, expected a finite number",
-        ),
-        (
-            "0,1.5,1,1\n",
-            "h.csv: line 5, column 2 (`point`): found `1.5`, expected an integer",
-        ),
-        (
-            "0,0,1,1\r\n0,1,1\r\n",
-            "h.csv: line 6: found 3 fields, expected 4 as in the header",
-        ),
-        (
-            "0,0,1,1\n2,0,1,1\n1,0,1,1\n",
-            "h.csv: line 7: time goes back from 2 to 1 (point 0)",
-        ),
+        ("0,0,1,1\n0,1,x1,1\n", "h.csv: line 6, column 3 (`pressure`): found `x1`, expected a number"),
+        (",0,1,1\n", "h.csv: line 5, column 1 (`time`): found ``, expected a number"),
+        ("0,0,1,1\n# e\n0,1,1,NaN\n", "h.csv: line 7, column 4 (`velocity`): found `NaN`, expected a finite number"),
+        ("0,0,1e400,1\n", "h.csv: line 5, column 3 (`pressure`): found `1e400`, expected a finite number"),
+        ("0,1.5,1,1\n", "h.csv: line 5, column 2 (`point`): found `1.5`, expected an integer"),
+        ("0,0,1,1\r\n0,1,1\r\n", "h.csv: line 6: found 3 fields, expected 4 as in the header"),
+        ("0,0,1,1\n2,0,1,1\n1,0,1,1\n", "h.csv: line 7: time goes back from 2 to 1 (point 0)"),
         (
             "0,0,1,1\n0,7,1,1\n1,0,1,1\n0.5,7,1,1\n",
             "h.csv: point 0 has no row at time 0.5, where point 7 has one; expected every point at every time",
@@ -341,31 +244,17 @@ fn every_fault_of_the_rows_is_told() {
     for (text, expected) in cases {
         assert_eq!(rows(text), expected, "{text:?}");
     }
-    let area = fault(
-        "h.csv",
-        b"time,point,pressure,area\n0,5,1,0\n",
-        &Needs::of(&[Column::Area]),
-    );
-    assert_eq!(
-        area,
-        "h.csv: line 2: area 0 of point 5 at time 0, expected more than 0"
-    );
-    let normal = fault(
-        "h.csv",
-        b"time,point,pressure,nx,ny,nz\n0,5,1,0,0,1\n0,6,1,0,0,0\n",
-        &Needs::of(&Column::NORMAL),
-    );
-    assert_eq!(
-        normal,
-        "h.csv: line 3: normal of length 0 at point 6, time 0"
-    );
+    let area = fault("h.csv", b"time,point,pressure,area\n0,5,1,0\n", &Needs::of(&[Column::Area]));
+    assert_eq!(area, "h.csv: line 2: area 0 of point 5 at time 0, expected more than 0");
+    let normal =
+        fault("h.csv", b"time,point,pressure,nx,ny,nz\n0,5,1,0,0,1\n0,6,1,0,0,0\n", &Needs::of(&Column::NORMAL));
+    assert_eq!(normal, "h.csv: line 3: normal of length 0 at point 6, time 0");
 }
 
 #[test]
 fn a_file_that_is_not_there_or_not_a_file_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let told =
-        |path: &std::path::Path| History::read(path, &Needs::none()).unwrap_err().to_string();
+    let told = |path: &std::path::Path| History::read(path, &Needs::none()).unwrap_err().to_string();
     assert!(told(&folder.path().join("gone.csv")).contains("gone.csv: no such file"));
     assert!(told(folder.path()).contains("found a directory or device"));
 }
