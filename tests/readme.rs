@@ -56,7 +56,9 @@ fn every_command_line_of_the_readme_runs() {
 
 #[test]
 fn links_lead_to_files() {
-    for page in ["README.md", "CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "include/README.md"] {
+    for page in
+        ["README.md", "CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "include/README.md", "host/scenes/README.md"]
+    {
         let path = root().join(page);
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{page}: {error}"));
         for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
@@ -92,4 +94,15 @@ fn exit_codes_are_those_of_the_program() {
     for code in wearlaw::ExitCode::ALL {
         assert!(text.contains(&format!("| {} | ", code.number())), "README does not list exit code {}", code.number());
     }
+}
+
+#[test]
+fn the_keys_on_the_page_about_scenes_are_those_of_the_program() {
+    let page = std::fs::read_to_string(root().join("host/scenes/README.md")).expect("the page is there");
+    let block = page.split("```").find(|part| part.starts_with("toml")).expect("it shows a scene");
+    let scene = block.trim_start_matches("toml");
+    let read = |text: &str| wearlaw::scene::Scene::parse(text, "page.toml", &[]).map(|_| ()).map_err(|e| e.to_string());
+    assert_eq!(read(scene), Ok(()));
+    let help = Command::new(env!("CARGO_BIN_EXE_wearlaw")).args(["run", "--help"]).output().expect("it starts");
+    assert!(String::from_utf8_lossy(&help.stdout).contains("## Histories"));
 }

@@ -45,7 +45,8 @@ pub(super) struct How {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Run a scene
+    /// Run a scene; `wearlaw run --help` shows every key of one
+    #[command(after_long_help = SCENES)]
     Run(RunArguments),
     /// Show what a scene will compute and what it leaves out; run nothing
     Plan(PlanArguments),
@@ -181,6 +182,8 @@ First steps:
 
 `wearlaw COMMAND --help` explains a command, `wearlaw --help` lists the exit codes.";
 
+/// Every key of a scene and every column of a history: the page beside the scenes.
+const SCENES: &str = include_str!("../../scenes/README.md");
 const LONG_HELP: &str = "\
 First steps:
   wearlaw new my-law --lang c     a wear law of your own, with the three commands to type next

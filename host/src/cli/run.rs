@@ -144,6 +144,7 @@ fn report(
     error: Option<&ErrorNorm>,
 ) -> Result<Report, Error> {
     let descriptor = law.evaluator.descriptor();
+    let table = &plan.material.constants;
     let json = |what: &str, value: Result<Value, serde_json::Error>| {
         value.map_err(|error| Error::Fault { what: format!("{what} as JSON: {error}") })
     };
@@ -168,6 +169,10 @@ fn report(
             version: descriptor.version.clone(),
             path: law.origin.clone(),
             sha256: law.facts.as_ref().map(|facts| facts.sha256.clone()),
+            constants: (!table.varies_in_time() && !table.varies_in_temperature()).then(|| {
+                let named = descriptor.constants.iter().enumerate();
+                named.map(|(c, constant)| (constant.name.clone(), table.value(c, 0.0, 0.0))).collect()
+            }),
             isolated: settings.shared.isolate,
             build_time_s: law.build_seconds,
         },

@@ -21,7 +21,7 @@ pub(super) fn aligned(rows: &[Vec<String>], indent: usize) -> String {
 /// A label and a text behind it, broken at blanks so that no line is longer than `width` where that can be.
 pub(super) fn labelled(label: &str, text: &str, label_width: usize, width: usize) -> String {
     let mut lines = String::new();
-    let mut line = format!("  {label}{}", " ".repeat(label_width.saturating_sub(length(label))));
+    let mut line = format!("  {label}{}", " ".repeat(label_width.saturating_sub(length(label)).max(2)));
     let mut empty = true;
     for word in text.split(' ') {
         if !empty && length(&line) + 1 + length(word) > width {

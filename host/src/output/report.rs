@@ -22,6 +22,8 @@ pub struct LawReport {
     pub sha256: Option<String>,
     /// Whether it ran in a process of its own.
     pub isolated: bool,
+    /// Its constants, defaults included; `None` where they change with time or temperature.
+    pub constants: Option<std::collections::BTreeMap<String, f64>>,
     /// Wall time of compiling it; s. `None` where nothing was compiled.
     pub build_time_s: Option<f64>,
 }

@@ -238,7 +238,9 @@ impl Setting<'_> {
         let needed = [Field::FrictionStress, Field::FrictionWork].iter().any(|field| fields.contains(*field));
         if needed && self.has(Column::Shear) {
             columns.add(Column::Shear);
-        } else if !needed && !fields.contains(Field::FrictionCoefficient) {
+        }
+        let frictional = [Field::FrictionStress, Field::FrictionWork, Field::FrictionCoefficient];
+        if !frictional.iter().any(|field| self.law.fields().contains(*field)) {
             skipped.push(Skipped::new("friction", "the law does not read it"));
         }
     }
