@@ -58,6 +58,14 @@ pub enum AdvanceError<E: std::error::Error + 'static> {
     },
 }
 
+/// Whether an error vanishes in the rounding of the wear it is added to.
+///
+/// Close to a zero crossing the inputs are differences of large numbers: their noise, relative to what little wears
+/// there, does not fall with the substep, and only the wear so far says that it does not matter.
+pub(crate) fn invisible(error: f64, wear: &[f64]) -> bool {
+    error <= 4.0 * f64::EPSILON * norm(wear.iter().copied())
+}
+
 /// Euclidean norm of a chunk's values, scaled so that neither tiny nor huge lengths leave the range of doubles.
 pub(crate) fn norm(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let largest = values.clone().fold(0.0_f64, |most, v| most.max(v.abs()));

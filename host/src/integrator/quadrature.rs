@@ -5,7 +5,7 @@
 //! of the two is the error estimate, and a piece that misses its tolerance is halved (the adaptive scheme of QUADPACK,
 //! Piessens et al., 1983, without its extrapolation).
 
-use super::{AdvanceError, Reply, Rule, Tally, norm};
+use super::{AdvanceError, Reply, Rule, Tally, invisible, norm};
 
 /// Halvings after which a piece is as short as doubles can tell times apart.
 const MOST_HALVINGS: u32 = 48;
@@ -118,6 +118,13 @@ impl Quadrature {
                     }
                     // A law that wants a tenth gets a sixteenth at once instead of four rejected tries.
                     (-factor.log2()).ceil().clamp(1.0, 20.0) as u32
+                }
+                Verdict::Miss { estimate, .. } if invisible(estimate * norm(room.high.iter().copied()), wear) => {
+                    tally.accept(panel.length(), estimate * norm(room.high.iter().copied()));
+                    for (total, part) in wear.iter_mut().zip(&room.high) {
+                        *total += part;
+                    }
+                    continue;
                 }
                 Verdict::Miss { estimate, tolerance } => {
                     if depth >= MOST_HALVINGS {

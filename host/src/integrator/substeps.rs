@@ -4,7 +4,7 @@
 //! between taking it whole and taking it in two halves (step doubling; Hairer, Norsett and Wanner, 1993, II.4); the
 //! halves are what is kept. The memory is committed only with an accepted substep.
 
-use super::{AdvanceError, Reply, Tally, norm};
+use super::{AdvanceError, Reply, Tally, invisible, norm};
 use crate::integrator::quadrature::Span;
 
 /// Relative length below which a piece cannot be cut further.
@@ -123,7 +123,7 @@ impl Control {
             let factor = match self.try_step(law, (at, to), room, memory, &mut tally)? {
                 Step::Good { error, size } => {
                     let (allowed, growth) = self.judge(error, size, budget.allowance(self, size, (at, to)));
-                    if allowed {
+                    if allowed || invisible(error, &memory.wear) {
                         room.commit(self, memory);
                         tally.accept(step, error);
                         budget.spend(self, error, size);

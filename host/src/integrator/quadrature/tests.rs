@@ -125,3 +125,19 @@ fn rates_that_start_or_end_like_a_power_of_time_meet_their_tolerance() {
         }
     }
 }
+
+#[test]
+fn noise_that_vanishes_in_the_wear_so_far_is_no_error() {
+    // A rate like a difference of large numbers close to a zero crossing, after wear of its usual size.
+    let mixed = |x: f64| (x.to_bits() ^ (x.to_bits() >> 29)).wrapping_mul(0x9E37_79B9_7F4A_7C15) as i64;
+    let rate = |x: f64| 1e-11 * x + 1e-16 * (mixed(x) as f64 / i64::MAX as f64);
+    let quadrature = Quadrature::Adaptive(1e-13);
+    let span = Span { start: 0.0, length: 1.0, smallest: 0.0 };
+    let mut noisy = Given { rate, longest: 10.0 };
+    let fresh = quadrature.integrate(&mut noisy, span, &mut Room::default(), &mut [0.0; 4]);
+    assert!(matches!(fresh, Err(AdvanceError::Tolerance { .. })), "{fresh:?}");
+    let mut wear = [1.0; 4];
+    let tally =
+        quadrature.integrate(&mut noisy, span, &mut Room::default(), &mut wear).expect("the noise is invisible");
+    assert!((wear[3] - 1.0 - 4.0 * 5e-12).abs() < 1e-15 && tally.error < 1e-14, "{wear:?} {tally:?}");
+}
