@@ -101,7 +101,7 @@ impl Quadrature {
         while let Some((from, to, depth)) = open.pop() {
             let panel = Panel { span, from, to };
             let verdict = self.try_panel(rate, &panel, room, &mut tally, SHARE * left)?;
-            let halve = match verdict {
+            let halve = match verdict.forgiving(wear) {
                 Verdict::Good { error, shared } => {
                     tally.accept(panel.length(), error);
                     left -= if shared { error } else { 0.0 };
@@ -119,20 +119,13 @@ impl Quadrature {
                     // A law that wants a tenth gets a sixteenth at once instead of four rejected tries.
                     (-factor.log2()).ceil().clamp(1.0, 20.0) as u32
                 }
-                Verdict::Miss { estimate, .. } if invisible(estimate * norm(room.high.iter().copied()), wear) => {
-                    tally.accept(panel.length(), estimate * norm(room.high.iter().copied()));
-                    for (total, part) in wear.iter_mut().zip(&room.high) {
-                        *total += part;
-                    }
-                    continue;
-                }
-                Verdict::Miss { estimate, tolerance } => {
+                Verdict::Miss { error, size, tolerance } => {
                     if depth >= MOST_HALVINGS {
                         let (time, step) = (panel.time(), panel.length());
-                        return Err(AdvanceError::Tolerance { time, step, estimate, tolerance });
+                        return Err(AdvanceError::Tolerance { time, step, estimate: error / size, tolerance });
                     }
                     if depth == 0 {
-                        left = (1.0 - OWN) * tolerance * norm(room.high.iter().copied());
+                        left = (1.0 - OWN) * tolerance * size;
                     }
                     1
                 }
@@ -204,10 +197,22 @@ enum Verdict {
         shared: bool,
     },
     Cut(f64),
+    /// Norms of the error and of the increment.
     Miss {
-        estimate: f64,
+        error: f64,
+        size: f64,
         tolerance: f64,
     },
+}
+
+impl Verdict {
+    /// Good after all, if the error vanishes in the wear so far.
+    fn forgiving(self, wear: &[f64]) -> Verdict {
+        match self {
+            Verdict::Miss { error, .. } if invisible(error, wear) => Verdict::Good { error, shared: false },
+            other => other,
+        }
+    }
 }
 
 struct Panel {
@@ -318,7 +323,7 @@ fn judge(high: &[f64], low: &[f64], tolerance: f64, share: f64) -> Verdict {
     if tolerance == f64::INFINITY || difference <= allowed.max(share) {
         Verdict::Good { error: difference, shared: tolerance.is_finite() && difference > allowed }
     } else {
-        Verdict::Miss { estimate: difference / size, tolerance }
+        Verdict::Miss { error: difference, size, tolerance }
     }
 }
 

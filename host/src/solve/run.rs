@@ -41,7 +41,6 @@ struct Going {
     law_time: Duration,
     warnings: Vec<String>,
     steps: u64,
-    sums: Sums,
     start_pressure: Vec<f64>,
     end_pressure: Vec<f64>,
 }
@@ -143,7 +142,6 @@ impl<'p> Run<'p> {
             law_time: Duration::ZERO,
             warnings: Vec::new(),
             steps: 0,
-            sums: Sums::default(),
             start_pressure: Vec::new(),
             end_pressure: Vec::new(),
         };
@@ -274,7 +272,6 @@ impl<'p> Run<'p> {
                 going.tally.then(&done.tally);
                 going.law_time += done.law_time;
                 going.steps += 1;
-                going.sums = done.sums;
                 for warning in done.warnings {
                     if !going.warnings.contains(&warning) {
                         observer.observe(Event::Warning(&warning));

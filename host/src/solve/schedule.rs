@@ -131,15 +131,16 @@ pub(super) fn pieces<'p>(plan: &Plan, history: Option<&History>, points: usize, 
     cuts.push(end);
     cuts.sort_by(f64::total_cmp);
     let near = 1e-12 * length;
-    let mut pieces = Vec::with_capacity(cuts.len());
+    let mut pieces: Vec<Piece<'p>> = Vec::with_capacity(cuts.len());
     let mut from = start;
     for cut in cuts {
         let last = cut == end;
         if cut - from <= near && !last {
             continue;
         }
-        if last && cut - from <= near && !pieces.is_empty() {
-            let tail: &mut Piece<'_> = pieces.last_mut().unwrap_or_else(|| unreachable!("there is a piece"));
+        if cut - from <= near
+            && let Some(tail) = pieces.last_mut()
+        {
             tail.end = end;
             continue;
         }
