@@ -7,12 +7,15 @@
 mod cells;
 mod error;
 pub mod foundation;
+pub mod halfspace;
 mod npy;
 pub mod prescribed;
 mod problem;
 pub mod surface;
+mod traction;
 
 pub use cells::Cells;
 pub use error::ContactError;
 pub use npy::ArrayFault;
 pub use problem::{ContactModel, Control, Diagonal, Problem, Solution};
+pub use traction::nodal_traction;

@@ -103,6 +103,14 @@ impl Surface {
             }
         }
     }
+
+    /// Distances of the cells' centres from the apex `[cells]`, x fastest; on a `periodic` grid from its nearest image.
+    ///
+    /// # Errors
+    /// A centre that is not finite.
+    pub fn distances(&self, cells: &Cells, periodic: bool) -> Result<Vec<f64>, SurfaceError> {
+        Ok(Offsets::new(cells, self.center, periodic)?.distances())
+    }
 }
 
 /// The gap that a body with these heights leaves above a plane that touches its highest cell.

@@ -37,6 +37,11 @@ impl Offsets {
         Ok(Offsets { dimension: cells.dimension, counts: cells.counts, spacing: cells.spacing, steps })
     }
 
+    /// Distances from the apex.
+    pub(super) fn distances(&self) -> Vec<f64> {
+        self.map(f64::hypot)
+    }
+
     /// One value for each cell, from its distances in x and y.
     fn map(&self, value: impl Fn(f64, f64) -> f64) -> Vec<f64> {
         let [xs, ys] = [0, 1].map(|axis| self.steps[axis].iter().map(move |step| step * self.spacing[axis]));
