@@ -5,6 +5,8 @@
 //! steps from wearing a gap open, and what is told on the way are here; solving a contact for given gaps is not.
 
 mod averaged;
+mod controlled;
+mod going;
 mod law_points;
 mod newton;
 mod proportional;

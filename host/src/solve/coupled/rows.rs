@@ -3,7 +3,6 @@
 use super::segment::Segment;
 use super::stepper::Stepper;
 use super::system::System;
-use crate::law::Evaluator;
 use crate::plan::{Elastic, FieldKind};
 use crate::record::{self, Field, FieldData, HistoryRow, Snapshot};
 use crate::solve::SolveError;
@@ -126,9 +125,4 @@ pub(super) fn check_rim(
             100.0 * part
         )
     }))
-}
-
-/// Whether a law is asked about cells that are open too.
-pub(super) fn asks_open(evaluator: &dyn Evaluator) -> bool {
-    evaluator.descriptor().wants_open_points()
 }

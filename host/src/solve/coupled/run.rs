@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use super::controlled::Control;
+use super::going::{Going, Leave};
 use super::rows::{self, Clock};
 use super::segment::Segment;
 use super::stepper::{Reach, Stepper};
@@ -9,13 +11,13 @@ use super::system::{Room, Substep, System, Work};
 use crate::contact::foundation::Foundation;
 use crate::contact::halfspace::{Boundary, HalfSpace};
 use crate::contact::surface::{height_map, std_of_gap};
-use crate::contact::{ContactModel, Control, Solution};
+use crate::contact::{ContactModel, Solution};
 use crate::integrator::{Formula, Stages, norm};
 use crate::law::{Evaluator, Field};
 use crate::plan::{Block, Elastic, LoadStep, Plan, SolvedPlan};
-use crate::record::{self, Cost, End, Event, Line, MemoryLine, Observer, Record, Wish};
-use crate::scene::{Every, ScalingKind};
-use crate::solve::ending::{peak_memory, stop_reached};
+use crate::record::{self, Cost, End, Line, MemoryLine, Observer, Record};
+use crate::scene::ScalingKind;
+use crate::solve::ending::peak_memory;
 use crate::solve::{SolveError, fields};
 
 /// Cells below which more threads than one cost more than they give.
@@ -28,39 +30,6 @@ pub(in crate::solve) struct Coupled<'p> {
     pub(in crate::solve) evaluator: &'p dyn Evaluator,
     gap: Vec<f64>,
     velocities: Vec<Vec<f64>>,
-}
-
-/// What changes from step to step.
-struct Going<'o> {
-    stepper: Stepper,
-    clock: Clock,
-    history: record::History,
-    steps: u64,
-    rejected: u64,
-    replaced: u64,
-    error: f64,
-    longest: f64,
-    warnings: Vec<String>,
-    observer: &'o mut (dyn Observer + Send),
-    units: record::Units,
-    total: f64,
-    start_pressure: Vec<f64>,
-    snapshot_told: bool,
-    /// What presses at the end of the last step.
-    pressed: Option<Control>,
-}
-
-/// Why the loop ends early.
-enum Leave {
-    Failed(SolveError),
-    Stopped(String),
-    Interrupted,
-}
-
-impl From<SolveError> for Leave {
-    fn from(error: SolveError) -> Leave {
-        Leave::Failed(error)
-    }
 }
 
 impl<'p> Coupled<'p> {
@@ -81,10 +50,6 @@ impl<'p> Coupled<'p> {
 
     pub(in crate::solve) fn points(&self) -> usize {
         self.gap.len()
-    }
-
-    pub(in crate::solve) fn initial_gap(&self) -> &[f64] {
-        &self.gap
     }
 
     pub(in crate::solve) fn geometry(&self) -> record::Geometry<'static> {
@@ -141,7 +106,7 @@ impl<'p> Coupled<'p> {
         }
     }
 
-    pub(in crate::solve) fn system(&self, threads: usize) -> System<'p> {
+    fn system(&self, threads: usize) -> System<'p> {
         let cells = self.gap.len();
         let first = self.plan.blocks.first().and_then(|block| block.steps.first());
         let segment = Segment {
@@ -179,7 +144,7 @@ impl<'p> Coupled<'p> {
     }
 
     /// Relative velocities of the cells in a load step; empty where all slide alike.
-    pub(in crate::solve) fn slides(&self, step: &LoadStep) -> Result<Vec<f64>, SolveError> {
+    fn slides(&self, step: &LoadStep) -> Result<Vec<f64>, SolveError> {
         let stick = step.stick.filter(|stick| *stick > 0.0);
         let mut slides = match (step.velocity_file, stick) {
             (Some(file), _) => self.velocities[file].clone(),
@@ -205,13 +170,13 @@ impl<'p> Coupled<'p> {
         let line = Line::of(&geometry);
         let count = |block: &Block| block.count as f64 * block.steps.iter().filter_map(|s| s.duration).sum::<f64>();
         let mut going = Going {
-            stepper: Stepper::new(self.gap.len(), self.plan.tolerance, self.plan.smallest_step),
+            stepper: Stepper::new(self.gap.len(), self.plan.smallest_step),
             clock: Clock::default(),
             history: record::History::default(),
             steps: 0,
             rejected: 0,
             replaced: 0,
-            error: 0.0,
+            control: Control::new(),
             longest: 0.0,
             warnings: Vec::new(),
             observer,
@@ -252,9 +217,9 @@ impl<'p> Coupled<'p> {
         let profile = line.map(|line| {
             line.profile(&units, [&start_pressure[..], &system.pressure[..], &none[..], &stepper.wear[..]])
         });
-        let estimated = self.plan.tolerance.is_some() || self.solved.scheme.rate;
+        let estimated = self.plan.tolerance.is_some();
         Record {
-            estimated_error: (estimated && size > 0.0).then(|| going.error / size),
+            estimated_error: (estimated && size > 0.0).then(|| going.control.error / size),
             largest_step: going.longest,
             cost: Cost {
                 run_time_s: begin.elapsed().as_secs_f64(),
@@ -342,13 +307,23 @@ impl<'p> Coupled<'p> {
         let mut at = segment.start;
         let mut number = 0;
         for until in segment.cuts(self.plan) {
+            let idle = Stepper::is_idle(system, &segment);
+            if self.plan.tolerance.is_some() && !idle {
+                let pressed = (scaling == ScalingKind::Cycle).then(|| going.stepper.moment(system));
+                number = self.controlled(system, going, segment, (at, until, number), cycles_per_time)?;
+                at = until;
+                if let Some(before) = pressed {
+                    change += self.change(system, before.pressed(), &segment, at)?;
+                }
+            }
             while at < until {
                 number += 1;
                 let length =
                     self.step(system, going, (segment, Reach { start: at, until, number }), cycles_per_time)?;
                 at = if length >= until - at { until } else { at + length };
                 if scaling == ScalingKind::Cycle {
-                    change += self.change(system, going, &segment, at)?;
+                    let before = going.stepper.before();
+                    change += self.change(system, before, &segment, at)?;
                 }
             }
         }
@@ -380,7 +355,8 @@ impl<'p> Coupled<'p> {
                 at += unscaled;
                 represented = if scale == left { until } else { represented + scale * unscaled };
                 going.clock.represented = represented;
-                stretch = self.plan.material.scaling.factor(self.change(system, going, &piece, at)? / scale);
+                stretch =
+                    self.plan.material.scaling.factor(self.change(system, going.stepper.before(), &piece, at)? / scale);
             }
         }
         Ok(())
@@ -406,11 +382,9 @@ impl<'p> Coupled<'p> {
         })?;
         let whole = accepted.length >= reach.until - reach.start;
         let at = if whole { reach.until } else { reach.start + accepted.length };
-        going.clock.simulated = at;
-        going.clock.represented = segment.represented_at(at);
-        going.clock.cycles += accepted.length * cycles_per_time;
-        going.clock.temperature = segment.at(at).temperature;
-        going.tell(system, &segment, &accepted, accepted.length * segment.scale, whole)?;
+        going.moved(&segment, accepted.length, at, cycles_per_time);
+        let row = rows::row(system, &going.stepper.wear, &going.clock, accepted.length * segment.scale, segment.scale);
+        going.tell(system, &segment, &accepted, row, whole)?;
         Ok(accepted.length)
     }
 
@@ -422,7 +396,7 @@ impl<'p> Coupled<'p> {
         let same = !first && going.pressed == Some(driven.control);
         let first_order =
             self.solved.scheme.formula.order() < 2 && self.solved.scheme.formula != Formula::ExplicitEuler;
-        let needed = first || self.plan.tolerance.is_some() || !first_order;
+        let needed = first || !first_order;
         let scaled = self.plan.material.scaling.kind != ScalingKind::None;
         if !same && (needed || scaled) {
             let advance = |source: crate::solve::PointError| SolveError::Advance {
@@ -442,11 +416,11 @@ impl<'p> Coupled<'p> {
         Ok(())
     }
 
-    /// The relative change of the pressure that the wear of the last step made.
+    /// The relative change of the pressure that wear has made since the surface was worn by `wear` and carried `pressure`.
     fn change(
         &self,
         system: &mut System<'p>,
-        going: &Going<'_>,
+        (wear, pressure): (&[f64], &[f64]),
         segment: &Segment<'p>,
         at: f64,
     ) -> Result<f64, SolveError> {
@@ -455,11 +429,11 @@ impl<'p> Coupled<'p> {
         }
         let end = system.pressure.clone();
         let start = if segment.presses_steadily() {
-            going.stepper.start_pressure.clone()
+            pressure.to_vec()
         } else {
             // The same surface as before the step under the load at its end: what differs is what wear changed.
             let solution = system.solution;
-            let pressed = system.press(segment.at(at).control, going.stepper.before());
+            let pressed = system.press(segment.at(at).control, wear);
             let unworn = std::mem::replace(&mut system.pressure, end.clone());
             system.solution = solution;
             pressed.map_err(|source| SolveError::Advance {
@@ -473,70 +447,5 @@ impl<'p> Coupled<'p> {
         let size = norm(start.iter().copied());
         let moved = norm(start.iter().zip(&end).map(|(a, b)| a - b));
         Ok(if size > 0.0 { moved / size } else { 0.0 })
-    }
-}
-
-impl Going<'_> {
-    fn warn(&mut self, warning: String) {
-        if !self.warnings.contains(&warning) {
-            self.observer.observe(Event::Warning(&warning));
-            self.warnings.push(warning);
-        }
-    }
-
-    /// Tells of a step, and hears whether to go on.
-    fn tell(
-        &mut self,
-        system: &mut System<'_>,
-        segment: &Segment<'_>,
-        accepted: &super::stepper::Accepted,
-        dt: f64,
-        at_cut: bool,
-    ) -> Result<(), Leave> {
-        self.steps += 1;
-        self.rejected += accepted.rejected;
-        self.replaced += u64::from(accepted.replaced);
-        self.error += accepted.error;
-        self.longest = self.longest.max(dt);
-        self.pressed = Some(segment.at(self.clock.simulated).control);
-        for warning in std::mem::take(&mut system.law.warnings) {
-            self.warn(warning);
-        }
-        if let Some(warning) = rows::check_rim(system, segment, &self.clock)? {
-            let kind = warning.split(',').next().unwrap_or_default().to_owned();
-            if !self.warnings.iter().any(|known| known.starts_with(&kind)) {
-                self.warn(warning);
-            }
-        }
-        let row = rows::row(system, &self.stepper.wear, &self.clock, dt, segment.scale);
-        let done = if self.total > 0.0 { self.clock.represented / self.total } else { 1.0 };
-        let wish = self.observer.observe(Event::Step { row: &row, steps: self.steps, done });
-        self.history.rows.push(row);
-        let asked = match &system.plan.output.every {
-            Every::End => false,
-            Every::Steps(every) => self.steps.is_multiple_of(*every),
-            Every::Times(times) => {
-                let near = 1e-9 * dt.max(self.clock.represented.abs());
-                at_cut && times.iter().any(|time| (time - self.clock.represented).abs() <= near)
-            }
-        };
-        self.snapshot_told = asked && !system.plan.output.fields.is_empty();
-        if self.snapshot_told {
-            let snapshot = rows::snapshot(system, &self.stepper, &self.clock, self.steps, &self.units);
-            self.observer.observe(Event::Snapshot(&snapshot));
-        }
-        match stop_reached(&system.plan.stop, &row) {
-            Some(reason) => Err(Leave::Stopped(reason)),
-            None if wish == Wish::Stop => Err(Leave::Interrupted),
-            None => Ok(()),
-        }
-    }
-
-    /// What is left to tell when a run ends, for whatever reason.
-    fn finish(&mut self, system: &mut System<'_>) {
-        if self.steps > 0 && !system.plan.output.fields.is_empty() && !self.snapshot_told {
-            let snapshot = rows::snapshot(system, &self.stepper, &self.clock, self.steps, &self.units);
-            self.observer.observe(Event::Snapshot(&snapshot));
-        }
     }
 }
