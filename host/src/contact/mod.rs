@@ -6,6 +6,7 @@
 mod cells;
 mod error;
 pub mod foundation;
+pub mod halfspace;
 pub mod prescribed;
 mod problem;
 
