@@ -407,7 +407,7 @@ impl<'p> Coupled<'p> {
             };
             system.press(driven.control, &going.stepper.wear).map_err(advance)?;
         }
-        going.stepper.fresh = false;
+        (going.stepper.fresh, going.stepper.known) = (false, false);
         going.clock.temperature = driven.temperature;
         if first {
             going.history.rows.push(rows::row(system, &going.stepper.wear, &going.clock, 0.0, 1.0));
