@@ -4,8 +4,8 @@
 //! a fixed radius, singular at its edge like that of a flat punch. Beyond, wear has just closed the gap that the free
 //! surface would leave: w = approach - r^2/2R - u(r), up to the radius at which that is zero. The limit depends neither on
 //! the wear law's constants nor on the path to it, only on what is held (load or approach).
-//! Source for limits of this kind: M. Ciavarella and D. A. Hills, J. Strain Anal. 34 (1999) 265; the formulas below follow from
-//! the references given with them.
+//! Source: V. L. Popov, Analytic solution for the limiting shape of profiles due to fretting wear, Sci. Rep. 4 (2014) 3749,
+//! for the principle and the sphere at a constant approach.
 //!
 //! Sphere (I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, with g(t) = d - t^2/R on t < s):
 //! p(r) = (E*/pi) {(d - s^2/R) (s^2 - r^2)^(-1/2) + (2/R) (s^2 - r^2)^(1/2)}, P = 2 E* (d s - s^3 / 3R),

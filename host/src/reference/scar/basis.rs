@@ -9,7 +9,8 @@ use super::super::answer::Indenter;
 ///
 /// Sphere: Legendre polynomials, lambda_n = pi ((2n-1)!! / (2n)!!)^2. Line: Chebyshev polynomials, lambda_n = 1/n, and a
 /// constant for n = 0, which the datum decides and which is left out here. Source: G. Ya. Popov, J. Appl. Math. Mech. 27
-/// (1963) 1255, for the sphere; the line's is the cosine series of ln |x - s|.
+/// (1963) 1255, for the sphere; the line's is the cosine series of ln |x - s|. Both are held against quadrature of the
+/// kernel in tests.rs.
 pub(super) struct Basis {
     pub indenter: Indenter,
     /// lambda_n, n = 0..=order.
