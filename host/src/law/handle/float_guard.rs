@@ -13,8 +13,10 @@ use super::super::float_env::{FloatEnv, FloatEnvChange};
 use super::LawInstance;
 
 thread_local! {
-    /// The instance that this thread called last, and the environment before and after.
-    static LAST: Cell<(u64, Option<FloatEnv>)> = const { Cell::new((0, None)) };
+    /// Of the instance that this thread called last the number, which is never 0.
+    static LAST: Cell<u64> = const { Cell::new(0) };
+    /// The environment before and after that call.
+    static ENV: Cell<Option<FloatEnv>> = const { Cell::new(None) };
 }
 
 /// A number that no other instance has.
@@ -80,8 +82,8 @@ impl LawInstance {
     /// The environment before a call of the law.
     #[inline]
     pub(super) fn floats_before(&self) -> Before {
-        match LAST.get() {
-            (number, Some(env)) if number == self.number => Before { env, is_assumed: true },
+        match ENV.get() {
+            Some(env) if LAST.get() == self.number => Before { env, is_assumed: true },
             _ => Before { env: FloatEnv::capture(), is_assumed: false },
         }
     }
@@ -91,9 +93,14 @@ impl LawInstance {
     pub(super) fn floats_after(&self, before: Before) -> Option<FloatEnvChange> {
         let change = before.env.changed_since();
         if change.is_none() && !before.is_assumed {
-            LAST.set((self.number, Some(before.env)));
+            self.remember(before.env);
         }
         change
+    }
+
+    fn remember(&self, env: FloatEnv) {
+        LAST.set(self.number);
+        ENV.set(Some(env));
     }
 
     /// Finds out who changed the environment, and evaluates with it put back.
@@ -111,12 +118,12 @@ impl LawInstance {
             // The law leaves it alone; so the program had set it anew since the call before, and it is to stay so.
             drop(answer);
             change.after.restore();
-            LAST.set((self.number, Some(change.after)));
+            self.remember(change.after);
             return pieces(Guard::Each(&changed));
         }
         // A law may do so in its first call only.
         self.warn_of_floats(change);
-        LAST.set((self.number, Some(change.before)));
+        self.remember(change.before);
         answer
     }
 
@@ -132,3 +139,6 @@ impl LawInstance {
         }
     }
 }
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests;
