@@ -83,3 +83,31 @@ fn stream_avx2(from: &[f64], to: &mut [f64]) -> bool {
     last_to.copy_from_slice(last_from);
     upper_halves_are_finite(_mm256_max_epu32(most[0], most[1])) & plain_lanes(first_from) & plain_lanes(last_from)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_copied_and_the_odd_one_is_found_wherever_it_stands() {
+        for (length, shift) in [(0, 0), (1, 7), (7, 1), (8, 0), (9, 3), (16, 0), (31, 5), (64, 0), (100, 2)] {
+            for place in (0..length).chain([usize::MAX]) {
+                for odd in [-0.0, -5e-324, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    let mut from: Vec<f64> = (0..length).map(|i| 1e-300 * (1 + i) as f64).collect();
+                    if let Some(value) = from.get_mut(place) {
+                        *value = odd;
+                    }
+                    let mut room = vec![7.0; length + 24];
+                    let start = room.as_ptr().align_offset(64) + shift;
+                    let found = sweep_past_caches(&from, &mut room[start..start + length]);
+                    drop(InOrder);
+                    let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+                    assert_eq!(bits(&room[start..start + length]), bits(&from), "{odd} at {place} of {length}");
+                    assert_eq!((room[start + length], room[..start].last().copied().unwrap_or(7.0)), (7.0, 7.0));
+                    let odd = if place < length { odd } else { 1.0 };
+                    assert_eq!(found, Sweep { finite: odd.is_finite(), non_negative: odd >= 0.0 || odd.is_nan() });
+                }
+            }
+        }
+    }
+}
