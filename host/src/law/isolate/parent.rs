@@ -20,7 +20,7 @@ use super::{IsolateError, IsolateOptions, Source, WORKER_COMMAND};
 
 /// Points in one call of a worker: whole pieces, so that the law sees the same ones as in process, and enough of them
 /// that the two microseconds of a call do not show.
-const CALL: usize = 256 * PIECE;
+const CALL: usize = 16 * PIECE;
 
 /// A law in worker processes of its own, one for each thread that calls it at the same time.
 ///

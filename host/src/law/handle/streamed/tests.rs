@@ -79,7 +79,7 @@ fn pressures(points: usize) -> Vec<f64> {
 
 #[test]
 fn every_increment_arrives_wherever_the_answers_and_the_batch_begin() {
-    for points in [1, 7, 8, PIECE - 1, PIECE, PIECE + 1, 3 * PIECE + 13] {
+    for points in [1, 7, 8, 65, PIECE - 1, PIECE, PIECE + 1, 3 * PIECE + 13] {
         let pressure = pressures(points + 5);
         for (first, shift) in [(0, 0), (0, 1), (5, 6), (5, 0)] {
             let (answer, written) = stream("", &pressure, first, shift);
