@@ -134,40 +134,38 @@ pub trait PointLaw: About {
 }
 
 impl<T: PointLaw> Law for T {
+    // Amid the guard against panics the loop is not vectorised.
+    #[inline(never)]
     fn evaluate(&self, batch: &Batch<'_>, answer: &mut Answer<'_>) -> Status {
         const {
             assert!(T::CONSTANTS.len() <= MOST && T::INPUTS.len() <= MOST, "at most 16 constants and inputs");
             assert!(T::STATE.len() <= MOST_STATE, "at most 8 state variables");
         }
         let missing = batch.missing(T::READS);
-        let constants = columns(T::CONSTANTS.len(), |k| batch.constant(k));
-        let inputs = columns(T::INPUTS.len(), |k| batch.input(k));
-        let (Some(constants), Some(inputs), 0) = (constants, inputs, missing) else {
+        let constants = (0..T::CONSTANTS.len()).map(|k| batch.constant(k));
+        let inputs = (0..T::INPUTS.len()).map(|k| batch.input(k));
+        if missing != 0 || constants.clone().chain(inputs).any(|column| column.is_none()) {
             answer.miss(missing);
             return answer.worst();
-        };
+        }
         if !T::STATE.is_empty() && (batch.state().is_none() || answer.state.is_none()) {
             answer.say(Status::MissingInput, format_args!("the call gives no state variables"));
             return answer.worst();
         }
         answer.all_good();
-        let uniform = constants[..T::CONSTANTS.len()].iter().all(|c| c.and_then(|c| c.uniform()).is_some());
-        if uniform {
-            run::<T, true>(self, batch, answer, &constants, &inputs);
+        if constants.flatten().all(|column| column.uniform().is_some()) {
+            run::<T, true>(self, batch, answer);
         } else {
-            run::<T, false>(self, batch, answer, &constants, &inputs);
+            run::<T, false>(self, batch, answer);
         }
         answer.worst()
     }
 }
 
-/// The first `count` columns of a list, or nothing if one of them is absent.
-fn columns<'a>(count: usize, get: impl Fn(usize) -> Option<Column<'a>>) -> Option<[Option<Column<'a>>; MOST]> {
-    let mut all = [None; MOST];
-    for (k, place) in all.iter_mut().enumerate().take(count) {
-        *place = Some(get(k)?);
-    }
-    Some(all)
+/// Value of a constant or an input at point `i`.
+#[inline(always)]
+fn value_of(column: Option<Column<'_>>, i: usize) -> f64 {
+    column.map_or(f64::NAN, |column| column.get(i))
 }
 
 macro_rules! scalars {
@@ -221,18 +219,13 @@ macro_rules! put_others {
 }
 
 #[inline(always)]
-fn run<T: PointLaw, const UNIFORM: bool>(
-    law: &T,
-    batch: &Batch<'_>,
-    answer: &mut Answer<'_>,
-    constants: &[Option<Column<'_>>; MOST],
-    inputs: &[Option<Column<'_>>; MOST],
-) {
+fn run<T: PointLaw, const UNIFORM: bool>(law: &T, batch: &Batch<'_>, answer: &mut Answer<'_>) {
     let points = batch.points();
-    let at = |column: &Option<Column<'_>>, i: usize| column.map_or(f64::NAN, |c| c.get(i));
     let mut blank = blank::<T>(batch);
     if UNIFORM && points > 0 {
-        blank.constants = core::array::from_fn(|k| at(&constants[k], 0));
+        for (k, constant) in blank.constants.iter_mut().enumerate().take(T::CONSTANTS.len()) {
+            *constant = value_of(batch.constant(k), 0);
+        }
     }
     let turns = T::WRITES & WL_OUT_DIRECTION != 0;
     let mut room = Block::empty();
@@ -250,10 +243,14 @@ fn run<T: PointLaw, const UNIFORM: bool>(
                 friction_stress: WL_FIELD_FRICTION_STRESS vector, contact_state: WL_FIELD_CONTACT_STATE get,
                 point_id: WL_FIELD_POINT_ID get, element_id: WL_FIELD_ELEMENT_ID get);
             if !UNIFORM {
-                here.constants = core::array::from_fn(|k| at(&constants[k], i));
+                for (k, constant) in here.constants.iter_mut().enumerate().take(T::CONSTANTS.len()) {
+                    *constant = value_of(batch.constant(k), i);
+                }
             }
             if !T::INPUTS.is_empty() {
-                here.inputs = core::array::from_fn(|k| at(&inputs[k], i));
+                for (k, input) in here.inputs.iter_mut().enumerate().take(T::INPUTS.len()) {
+                    *input = value_of(batch.input(k), i);
+                }
             }
             if let (false, Some(state)) = (T::STATE.is_empty(), batch.state()) {
                 for k in 0..T::STATE.len() {
