@@ -133,6 +133,14 @@ pub trait PointLaw: About {
     fn point(&self, at: &Point, out: &mut PointAnswer) -> Status;
 }
 
+macro_rules! put_others {
+    ($T:ident, $batch:ident, $i:expr, $at:ident; $($name:ident: $bit:ident $get:ident),*) => {
+        $(if ($T::READS | $T::USES) & $bit != 0 {
+            if let Some(column) = $batch.$name() { $at.$name = column.$get($i); }
+        })*
+    };
+}
+
 impl<T: PointLaw> Law for T {
     // Amid the guard against panics the loop is not vectorised.
     #[inline(never)]
@@ -160,6 +168,60 @@ impl<T: PointLaw> Law for T {
         }
         answer.worst()
     }
+
+    #[inline]
+    fn increments(&self, batch: &Batch<'_>, increment: &mut [f64]) -> bool {
+        T::STATE.is_empty() && T::INPUTS.is_empty() && run_alone::<T>(self, batch, increment)
+    }
+}
+
+/// Goes over fields that lie side by side with constants that are the same at all points, if they are and all is well.
+#[inline(never)]
+fn run_alone<T: PointLaw>(law: &T, batch: &Batch<'_>, increment: &mut [f64]) -> bool {
+    let points = increment.len();
+    if points == 0 || batch.missing(T::READS) != 0 || !Scalars::in_place::<T>(batch) {
+        return false;
+    }
+    let mut blank = blank::<T>(batch);
+    for (k, constant) in blank.constants.iter_mut().enumerate().take(T::CONSTANTS.len()) {
+        let Some(value) = batch.constant(k).and_then(|column| column.uniform()) else { return false };
+        *constant = value;
+    }
+    let mut room = Block::empty();
+    let scalars = Scalars::load::<T>(batch, 0, points, &mut room);
+    let mut worst = Status::Ok;
+    for (i, increment) in increment.iter_mut().enumerate() {
+        let (status, out) = ask(law, batch, &scalars, i, i, blank);
+        *increment = out.increment;
+        worst = worst.max(status);
+    }
+    worst == Status::Ok
+}
+
+/// Asks the law at point `i`, the `k`th of its block, with what `here` holds already and the fields.
+#[inline(always)]
+fn ask<T: PointLaw>(
+    law: &T,
+    batch: &Batch<'_>,
+    scalars: &Scalars<'_>,
+    k: usize,
+    i: usize,
+    mut here: Point,
+) -> (Status, PointAnswer) {
+    scalars.put::<T>(k, &mut here);
+    put_others!(T, batch, i, here; slip_vector: WL_FIELD_SLIP_VECTOR vector, normal: WL_FIELD_NORMAL vector,
+        coordinates: WL_FIELD_COORDINATES vector, tangent: WL_FIELD_TANGENT vector,
+        friction_stress: WL_FIELD_FRICTION_STRESS vector, contact_state: WL_FIELD_CONTACT_STATE get,
+        point_id: WL_FIELD_POINT_ID get, element_id: WL_FIELD_ELEMENT_ID get);
+    let mut out = PointAnswer {
+        increment: 0.0,
+        direction: here.normal.map(|component| -component),
+        state: here.state,
+        d_pressure: 0.0,
+        dt_factor: 0.0,
+        text: "",
+    };
+    (law.point(&here, &mut out), out)
 }
 
 /// Value of a constant or an input at point `i`.
@@ -210,14 +272,6 @@ scalars!(
     nodal_traction: WL_FIELD_NODAL_TRACTION, gap: WL_FIELD_GAP, area: WL_FIELD_AREA
 );
 
-macro_rules! put_others {
-    ($T:ident, $batch:ident, $i:expr, $at:ident; $($name:ident: $bit:ident $get:ident),*) => {
-        $(if ($T::READS | $T::USES) & $bit != 0 {
-            if let Some(column) = $batch.$name() { $at.$name = column.$get($i); }
-        })*
-    };
-}
-
 #[inline(always)]
 fn run<T: PointLaw, const UNIFORM: bool>(law: &T, batch: &Batch<'_>, answer: &mut Answer<'_>) {
     let points = batch.points();
@@ -237,11 +291,6 @@ fn run<T: PointLaw, const UNIFORM: bool>(law: &T, batch: &Batch<'_>, answer: &mu
         let one = |k: usize| {
             let i = start + k;
             let mut here = blank;
-            scalars.put::<T>(k, &mut here);
-            put_others!(T, batch, i, here; slip_vector: WL_FIELD_SLIP_VECTOR vector, normal: WL_FIELD_NORMAL vector,
-                coordinates: WL_FIELD_COORDINATES vector, tangent: WL_FIELD_TANGENT vector,
-                friction_stress: WL_FIELD_FRICTION_STRESS vector, contact_state: WL_FIELD_CONTACT_STATE get,
-                point_id: WL_FIELD_POINT_ID get, element_id: WL_FIELD_ELEMENT_ID get);
             if !UNIFORM {
                 for (k, constant) in here.constants.iter_mut().enumerate().take(T::CONSTANTS.len()) {
                     *constant = value_of(batch.constant(k), i);
@@ -257,15 +306,7 @@ fn run<T: PointLaw, const UNIFORM: bool>(law: &T, batch: &Batch<'_>, answer: &mu
                     here.state[k] = state.adjacent(i, k);
                 }
             }
-            let mut out = PointAnswer {
-                increment: 0.0,
-                direction: here.normal.map(|component| -component),
-                state: here.state,
-                d_pressure: 0.0,
-                dt_factor: 0.0,
-                text: "",
-            };
-            (law.point(&here, &mut out), out)
+            ask(law, batch, &scalars, k, i, here)
         };
         let increments = &mut answer.increment[start..start + len];
         let mut derivatives = answer.d_pressure.as_deref_mut().map(|d| &mut d[start..start + len]);
