@@ -25,6 +25,10 @@ const MOST_STEPS: u64 = 1 << 22;
 const ORDER: f64 = 0.75;
 /// Part of the steps of a pass that is spread evenly.
 const EVEN: f64 = 0.25;
+/// Steps of a pass from which on its last step is cut.
+const TAILED: u64 = 4;
+/// Where the last step is cut.
+const TAIL: [f64; 3] = [0.6, 0.84, 0.94];
 /// Largest factor between the steps of two passes: a finer pass also knows better where steps are needed.
 const MOST_MORE: u64 = 3;
 /// Passes that may fail in the contact solve before the run gives up.
@@ -244,6 +248,12 @@ fn ends(start: f64, until: f64, steps: u64, seen: &[Taken]) -> Vec<f64> {
             let part = ((wanted - before) / weights[piece]).clamp(0.0, 1.0);
             *end = reach.start + part * (reach.until - reach.start);
         }
+    }
+    if steps >= TAILED {
+        // What a step leaves wrong at the edge of the contact fades in the next: the last ones are short, so that the
+        // pressure at the end is as good as the wear.
+        let last = ends.last().copied().unwrap_or(start);
+        ends.extend(TAIL.map(|part| last + part * (until - last)));
     }
     ends.push(until);
     ends.dedup_by(|later, earlier| *later <= *earlier);
