@@ -1,1 +1,1 @@
-fn main() {}
+//! Contact solves of the half-space: filled by the solver's own branch.

@@ -9,6 +9,7 @@ mod controlled;
 mod going;
 mod law_points;
 mod newton;
+mod prepared;
 mod proportional;
 mod reference;
 mod rows;
