@@ -11,9 +11,8 @@ fn eliminate(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
         right.swap(column, pivot);
         for row in column + 1..n {
             let factor = matrix[row][column] / matrix[column][column];
-            for k in column..n {
-                matrix[row][k] -= factor * matrix[column][k];
-            }
+            let (above, below) = matrix.split_at_mut(row);
+            below[0].iter_mut().zip(&above[column]).for_each(|(value, pivot)| *value -= factor * pivot);
             right[row] -= factor * right[column];
         }
     }
@@ -41,7 +40,7 @@ impl Dense {
             model.displacement(&one, &mut u);
             u.iter().enumerate().for_each(|(to, u)| compliance[to][from] = *u);
         }
-        Dense { cells: model.cells, boundary: model.boundary, compliance }
+        Dense { cells: model.cells, boundary: model.kernel.boundary, compliance }
     }
 
     /// A + b over a set.
@@ -52,7 +51,7 @@ impl Dense {
             let (mut one, mut acting) = (vec![0.0; count], vec![0.0; count]);
             one[from] = 1.0;
             if problem.smoothed {
-                local::smoothed(&self.cells, self.boundary, &one, &mut acting)
+                local::smoothed(self.cells.counts, [self.boundary; 2], &one, &mut acting)
             } else {
                 acting = one
             }

@@ -6,7 +6,7 @@ mod sums;
 mod units;
 
 use super::*;
-use crate::contact::Diagonal;
+use crate::contact::{Control, Diagonal};
 
 /// Numbers in (0, 1) that look random.
 pub struct Numbers(u64);
