@@ -3,6 +3,7 @@
 use super::contact_set::ContactSet;
 use super::passes::{change, dot, sum};
 use super::patch::Patch;
+use super::residual;
 use super::stencil::Stencil;
 
 /// When a descent has done enough.
@@ -59,6 +60,9 @@ impl Descent {
     /// A search direction that keeps the sum is the preconditioned residual less that multiple of the preconditioned
     /// unit displacement which has its sum.
     pub fn run(&mut self, patch: &mut Patch<'_>, set: &ContactSet, stencil: &mut Stencil, goal: &Goal) -> bool {
+        if !patch.symmetric() {
+            return residual::run(self, patch, set, stencil, goal);
+        }
         let (threads, count) = (patch.threads, set.len());
         let mut unit = Vec::new();
         let mut unit_sum = 0.0;

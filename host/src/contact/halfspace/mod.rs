@@ -14,6 +14,7 @@ mod levels;
 mod local;
 mod passes;
 mod patch;
+mod residual;
 mod scaled;
 mod search;
 mod solve;

@@ -203,9 +203,20 @@ fn a_smoothed_diagonal_acts_on_the_smoothed_pressure() {
         let datum = Some(9.0 * cells.counts[0] as f64 * cells.spacing[0]);
         let mut model = HalfSpace::new(cells, MODULUS, boundary, datum, 1);
         let load = load(&cells, &mut numbers);
-        let diagonal = Diagonal::Uniform(0.8 * cells.spacing[0] / MODULUS);
-        let under_load = Problem { diagonal, smoothed: true, ..problem(&gap, Control::Load(load)) };
-        agrees(&mut model, &under_load, "smoothed");
+        let compliance = 0.8 * cells.spacing[0] / MODULUS;
+        let per_point: Vec<f64> =
+            numbers.many(cells.count()).iter().map(|r| (2.0 * r - 0.8).max(0.0) * compliance).collect();
+        for diagonal in [Diagonal::Uniform(compliance), Diagonal::PerPoint(&per_point)] {
+            let under_load = Problem { diagonal, smoothed: true, ..problem(&gap, Control::Load(load)) };
+            let what = format!("smoothed {cells:?} {boundary:?} {diagonal:?}");
+            agrees(&mut model, &under_load, &what);
+            let approach = model.solve(&under_load, &mut vec![0.0; cells.count()]).unwrap().approach;
+            agrees(
+                &mut model,
+                &Problem { control: Control::Approach(approach), ..under_load },
+                &format!("held, {what}"),
+            );
+        }
     }
 }
 

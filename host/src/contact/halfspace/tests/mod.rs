@@ -4,6 +4,7 @@ mod answers;
 mod dense;
 mod sums;
 mod units;
+mod windows;
 
 use super::*;
 use crate::contact::{Control, Diagonal};
