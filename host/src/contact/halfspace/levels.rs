@@ -4,7 +4,7 @@ use super::Boundary;
 use super::kernel::Kernel;
 use super::patch::Patch;
 use super::search::{Accuracy, search};
-use super::window::Window;
+use super::window::{Window, range};
 
 /// Cells up to which a grid is not made coarser.
 const ENOUGH_3D: usize = 40 * 40;
@@ -32,6 +32,8 @@ pub struct Level {
 pub struct Guess {
     window: Window,
     pressure: Vec<f64>,
+    /// The first column and row of its contact, and the size of that.
+    contact: Option<([usize; 2], [usize; 2])>,
     /// Cells of the finer level in one of these.
     factor: [usize; 2],
     /// Iterations and pairs of transforms that it cost.
@@ -41,23 +43,14 @@ pub struct Guess {
 }
 
 impl Guess {
-    /// The window of the finer level around its contact.
-    pub fn window(&self, finer: &Kernel) -> Window {
-        let [nx, _] = self.window.sizes.0;
-        let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
-        for (place, _) in self.pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
-            for (axis, at) in [place % nx, place / nx].into_iter().enumerate() {
-                (low[axis], high[axis]) = (low[axis].min(at), high[axis].max(at + 1));
-            }
-        }
-        if low[0] == usize::MAX {
-            return Window::whole(finer);
-        }
+    /// The window of the finer level around its contact; `None`: there is no contact.
+    pub fn window(&self, finer: &Kernel) -> Option<Window> {
+        let (first, counts) = self.contact?;
         let axes = [0, 1];
-        let margin = axes.map(|axis| if finer.counts[axis] > 1 { 2 + (high[axis] - low[axis]) / 16 } else { 0 });
-        let first = axes.map(|axis| (self.window.origin[axis] + low[axis]) % self.window.all[axis] * self.factor[axis]);
-        let counts = axes.map(|axis| (high[axis] - low[axis]) * self.factor[axis] + 2 * margin[axis]);
-        Window::over(finer, first, counts, margin)
+        let margin = axes.map(|axis| if finer.counts[axis] > 1 { 2 + counts[axis] / 16 } else { 0 });
+        let first = axes.map(|axis| first[axis] * self.factor[axis]);
+        let counts = axes.map(|axis| counts[axis] * self.factor[axis] + 2 * margin[axis]);
+        Some(Window::over(finer, first, counts, margin))
     }
 
     /// The pressures on a window of the finer level: those of the cells that its cells are parts of.
@@ -117,7 +110,8 @@ pub fn coarser(kernel: &Kernel, sum: Option<f64>, gap: impl Fn(usize) -> f64, lo
 pub fn guess(mut level: Level, threads: usize) -> Guess {
     let (window, mut pressure, mut iterations, mut pairs) = if worthwhile(&level.kernel) {
         let guess = guess(coarser(&level.kernel, level.sum, |cell| level.gap[cell], &level.local), threads);
-        let window = guess.window(&level.kernel);
+        let window =
+            guess.window(&level.kernel).unwrap_or_else(|| Window::lowest(&level.kernel, |cell| level.gap[cell]));
         (window, guess.on(&window), guess.iterations, guess.pairs)
     } else {
         let window = Window::whole(&level.kernel);
@@ -143,5 +137,8 @@ pub fn guess(mut level: Level, threads: usize) -> Guess {
     let outcome = search(&mut patch, Accuracy { tolerance: 0.0, scale: 0.0, rough: ROUGH }, &mut pressure);
     iterations += outcome.iterations;
     pairs += patch.pairs;
-    Guess { window, pressure, factor: level.factor, iterations, pairs }
+    let [nx, _] = level.kernel.counts;
+    let loaded = |cell: usize| window.place([cell % nx, cell / nx]).is_some_and(|place| pressure[place] > 0.0);
+    let contact = range(&level.kernel, loaded);
+    Guess { window, pressure, contact, factor: level.factor, iterations, pairs }
 }

@@ -14,7 +14,9 @@ use super::stencil::Stencil;
 
 /// Rounds after which a search is given up, and those without progress.
 const MOST_ROUNDS: u64 = 1000;
-const PATIENCE: u64 = 25;
+const PATIENCE: u64 = 40;
+/// Rounds without progress after which energies have to fall.
+const LENIENCE: u64 = 8;
 /// Iterations of one descent.
 const MOST_ITERATIONS: u64 = 400;
 /// What a descent reduces the residual to, on a set that has just changed and on one that stays.
@@ -127,7 +129,8 @@ pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>
             enlarge(patch, pressure, &mut u, &state);
             state = State::of(patch, pressure, &u);
         }
-        if round > 0 && patch.symmetric() && state.energy > last.energy + 1e-12 * state.energies {
+        let going_round = round > best.2 + LENIENCE;
+        if going_round && patch.symmetric() && state.energy > last.energy + 1e-12 * state.energies {
             go_back(patch, &before, &u_before, pressure, &mut u);
             state = State::of(patch, pressure, &u);
         }
@@ -155,6 +158,17 @@ pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>
             best.3.scatter(&best.4, pressure);
             // What rounding left over is no failure.
             return outcome(best.0, best.1, best.0 <= 64.0 * floor);
+        }
+            eprintln!(
+                "round {round} its {iterations} err {:.3e} bar {:.1e} touching {} energy {:e} same {} low {:e} tot {:e}",
+                error / scale,
+                bar / scale,
+                pressure.iter().filter(|p| **p > 0.0).count(),
+                state.energy,
+                set.len(),
+                state.lowest,
+                state.total
+            );
         }
         let joins = approach - 0.25 * bar;
         let now = ContactSet::of(patch.counts, |cell| pressure[cell] > 0.0 || patch.gap[cell] + u[cell] < joins);

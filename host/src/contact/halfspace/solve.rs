@@ -157,7 +157,8 @@ impl Job<'_> {
         let level = levels::coarser(kernel, self.scaled.sum, |cell| self.scaled.gap(cell), &local);
         let guess = levels::guess(level, self.model.threads);
         (self.iterations, self.pairs) = (guess.iterations, guess.pairs);
-        let window = guess.window(&self.model.kernel);
+        let kernel = &self.model.kernel;
+        let window = guess.window(kernel).unwrap_or_else(|| Window::lowest(kernel, |cell| self.scaled.gap(cell)));
         let values = guess.on(&window);
         (window, values)
     }

@@ -22,27 +22,16 @@ impl Window {
 
     /// Around the cells that a function picks, and a margin; `None`: there are none.
     pub fn around(kernel: &Kernel, margin: [usize; 2], pick: impl Fn(usize) -> bool) -> Option<Window> {
-        let all = kernel.counts;
-        let mut taken = all.map(|count| vec![false; count]);
-        let [columns, rows] = &mut taken;
-        for (y, row) in rows.iter_mut().enumerate() {
-            for (x, column) in columns.iter_mut().enumerate() {
-                if pick(y * all[0] + x) {
-                    (*column, *row) = (true, true);
-                }
-            }
-        }
-        let periodic = kernel.boundary == Boundary::Periodic;
-        let mut ranges = [(0, 0); 2];
-        for (axis, taken) in taken.iter().enumerate() {
-            ranges[axis] = span(taken, periodic)?;
-        }
-        Some(Window::over(
-            kernel,
-            ranges.map(|range| range.0),
-            [0, 1].map(|axis| ranges[axis].1 + 2 * margin[axis]),
-            margin,
-        ))
+        let (first, counts) = range(kernel, pick)?;
+        Some(Window::over(kernel, first, [0, 1].map(|axis| counts[axis] + 2 * margin[axis]), margin))
+    }
+
+    /// Around the cells that overlap without pressure at an approach of 0, or else the lowest.
+    pub fn lowest(kernel: &Kernel, gap: impl Fn(usize) -> f64) -> Window {
+        let cells = kernel.counts[0] * kernel.counts[1];
+        let lowest = (0..cells).map(&gap).fold(f64::INFINITY, f64::min);
+        Window::around(kernel, [2, 2], |cell| gap(cell) < 0.0 || gap(cell) == lowest)
+            .unwrap_or_else(|| Window::whole(kernel))
     }
 
     /// Over `counts` cells and what makes full use of the transforms, the first `before` cells being margin.
@@ -88,6 +77,22 @@ impl Window {
             (0..nx).map(move |x| row + (self.origin[0] + x) % all_x)
         })
     }
+}
+
+/// The smallest rectangle with all cells that a function picks: its first column and row, and its size.
+pub fn range(kernel: &Kernel, pick: impl Fn(usize) -> bool) -> Option<([usize; 2], [usize; 2])> {
+    let [nx, ny] = kernel.counts;
+    let (mut columns, mut rows) = (vec![false; nx], vec![false; ny]);
+    for (y, row) in rows.iter_mut().enumerate() {
+        for (x, column) in columns.iter_mut().enumerate() {
+            if pick(y * nx + x) {
+                (*column, *row) = (true, true);
+            }
+        }
+    }
+    let periodic = kernel.boundary == Boundary::Periodic;
+    let (x, y) = (span(&columns, periodic)?, span(&rows, periodic)?);
+    Some(([x.0, y.0], [x.1, y.1]))
 }
 
 /// The shortest range with all that is taken, across the end if it is periodic: its first and its length.
