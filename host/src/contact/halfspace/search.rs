@@ -159,17 +159,6 @@ pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>
             // What rounding left over is no failure.
             return outcome(best.0, best.1, best.0 <= 64.0 * floor);
         }
-            eprintln!(
-                "round {round} its {iterations} err {:.3e} bar {:.1e} touching {} energy {:e} same {} low {:e} tot {:e}",
-                error / scale,
-                bar / scale,
-                pressure.iter().filter(|p| **p > 0.0).count(),
-                state.energy,
-                set.len(),
-                state.lowest,
-                state.total
-            );
-        }
         let joins = approach - 0.25 * bar;
         let now = ContactSet::of(patch.counts, |cell| pressure[cell] > 0.0 || patch.gap[cell] + u[cell] < joins);
         let same = now == set;
