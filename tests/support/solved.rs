@@ -48,6 +48,12 @@ impl Case {
         Self { folder, scene: format!("[law]\nuse = \"archard\"\n{law}\n[contact]\nmodel = \"prescribed\"\n{rest}\n") }
     }
 
+    /// A scene as it stands.
+    pub fn text(scene: &str) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        Self { folder, scene: scene.to_owned() }
+    }
+
     /// A prescribed scene with a history of these CSV lines.
     pub fn history(law: &str, csv: &str, rest: &str) -> Self {
         let case = Self::steps(law, &format!("history = \"h.csv\"\n{rest}"));

@@ -149,6 +149,13 @@ impl MemoryLaw for Work {
     }
 }
 
+impl Work {
+    /// A law of one constant that reads these fields, to be made into another.
+    pub fn descriptor_with(reads: &[Field]) -> LawDescriptor {
+        law("other", reads, &[], &["k"], &[])
+    }
+}
+
 /// k p s that wants no substep longer than `longest`.
 pub struct Impatient;
 

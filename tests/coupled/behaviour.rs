@@ -1,0 +1,155 @@
+//! What a run on a contact does, and what it leaves alone.
+
+use crate::solved::{Case, archard, near};
+use wearlaw::record::{End, Record};
+use wearlaw::solve::SolveError;
+
+/// A ball on a half-space of 24 by 24 cells.
+fn ball(law: &str, contact: &str, step: &str, rest: &str) -> Case {
+    Case::text(&format!(
+        "[law]\nuse = \"archard\"\nconstants = [1e-13, 1.0, 1.0, 1.0]\n{law}\n\
+         [contact]\nmodel = \"halfspace\"\nmodulus = 1.1e11\n{contact}\n\
+         [grid]\nsize = [6e-4, 6e-4]\ncells = [24, 24]\n[surface]\nshape = \"sphere\"\nradius = 1e-2\n\
+         [[step]]\nduration = 0.02\n{step}\n{rest}"
+    ))
+}
+
+const LOADED: &str = "load = 20.0\nvelocity = 1.0";
+
+fn run(case: &Case) -> Record<SolveError> {
+    case.solve(&archard()).record
+}
+
+#[test]
+fn the_worn_volume_is_that_of_the_load_at_any_step() {
+    // c P t, however long the steps are and whichever way they are taken.
+    for rest in [
+        "[integrator]\nsubsteps = 1\n",
+        "[integrator]\nsubsteps = 7\nmethod = \"sdirk2\"\n",
+        "[integrator]\ntolerance = 1e-2\n",
+    ] {
+        for contact in ["", "boundary = \"periodic\""] {
+            let record = run(&ball("", contact, LOADED, rest));
+            let last = record.history.last().expect("rows");
+            near(last.wear_volume.expect("a volume"), 1e-13 * 20.0 * 0.02, 1e-12);
+            near(last.load.expect("a load"), 20.0, 1e-14);
+            assert!(record.pressure.iter().all(|pressure| *pressure >= 0.0));
+        }
+    }
+}
+
+#[test]
+fn tolerance_is_kept_against_many_more_steps() {
+    for tolerance in ["1e-2", "1e-3"] {
+        let rest = format!("[integrator]\ntolerance = {tolerance}\n[reference]\nkind = \"self\"\n");
+        let solved = ball("", "", LOADED, &rest).solve(&archard());
+        let (error, estimate) =
+            (solved.error.expect("a reference"), solved.record.estimated_error.expect("an estimate"));
+        let asked: f64 = tolerance.parse().expect("a number");
+        assert!(error.value <= asked && estimate <= asked, "{tolerance}: {} {estimate}", error.value);
+        assert!(error.by_field["pressure_l2_relative"] < 0.1, "{:?}", error.by_field);
+    }
+}
+
+#[test]
+fn post_solves_a_steady_contact_once_and_wears_without_moving() {
+    let record = run(&ball("mode = \"post\"", "", LOADED, "[integrator]\nsubsteps = 5\n"));
+    assert_eq!(record.cost.contact_solves, 1);
+    let first = record.history.rows[0];
+    let last = record.history.last().expect("rows");
+    assert_eq!((first.max_pressure, first.approach), (last.max_pressure, last.approach));
+    near(last.max_wear_depth, 1e-13 * first.max_pressure * 0.02, 1e-12);
+}
+
+#[test]
+fn keys_of_no_effect_cost_nothing() {
+    let plain = ball("", "", LOADED, "[integrator]\nsubsteps = 3\n");
+    let base = run(&plain);
+    let extra = [
+        ball("", "friction = 0.3", LOADED, "[integrator]\nsubsteps = 3\n"),
+        ball("", "", &format!("{LOADED}\ntemperature = 20.0"), "[integrator]\nsubsteps = 3\n"),
+        ball("", "", &format!("{LOADED}\nstick = 0.0"), "[integrator]\nsubsteps = 3\n"),
+        ball("share = [0.5, 0.5]", "", LOADED, "[integrator]\nsubsteps = 3\n[scaling]\nkind = \"none\"\n"),
+    ];
+    let counters = |record: &Record<SolveError>| {
+        let cost = record.cost;
+        let memory: u64 = record.memory.iter().map(|line| line.bytes).sum();
+        (
+            cost.steps,
+            cost.law_calls,
+            cost.points_evaluated,
+            cost.contact_solves,
+            cost.contact_iterations,
+            cost.fft_pairs,
+            memory,
+        )
+    };
+    for case in extra {
+        let record = run(&case);
+        assert_eq!(counters(&record), counters(&base));
+        assert_eq!(record.wear, base.wear);
+    }
+}
+
+#[test]
+fn nothing_slips_within_the_stick_radius() {
+    let record = run(&ball("", "", &format!("{LOADED}\nstick = 4e-5"), "[integrator]\nsubsteps = 2\n"));
+    let geometry = &record.geometry;
+    let mut worn = 0;
+    for (cell, wear) in record.wear.iter().enumerate() {
+        let [x, y, _] = geometry.coordinates(cell).expect("cells have centres");
+        // The apex lies on the centre of cell 12.
+        let radius = (x - 12.5 * 2.5e-5).hypot(y - 12.5 * 2.5e-5);
+        assert!(radius >= 4e-5 || *wear == 0.0, "{radius:e}: {wear:e}");
+        worn += usize::from(*wear > 0.0);
+    }
+    assert!(worn > 10, "{worn}");
+}
+
+#[test]
+fn averaging_wears_the_contact_alike() {
+    let record = run(&ball("average = true", "", LOADED, "[integrator]\nsubsteps = 1\n"));
+    let worn: Vec<f64> = record.wear.iter().copied().filter(|wear| *wear > 0.0).collect();
+    assert!(worn.len() > 10 && worn.iter().all(|wear| *wear == worn[0]), "{worn:?}");
+}
+
+#[test]
+fn a_chequerboard_fades_under_nodal_tractions() {
+    let record = run(&ball(
+        "basis = \"nodal-stress\"",
+        "",
+        LOADED,
+        "[integrator]\nmethod = \"implicit-euler\"\nsubsteps = 20\n",
+    ));
+    let at = |i: usize, j: usize| record.pressure[j * 24 + i];
+    let ripple = (at(11, 12) + at(13, 12) - 2.0 * at(12, 12)).abs() / at(12, 12);
+    assert!(ripple < 0.2 && at(12, 12) > 0.0, "{ripple}");
+    assert!(record.history.last().expect("rows").wear_volume.expect("a volume") < 1e-13 * 20.0 * 0.02);
+}
+
+#[test]
+fn a_run_stops_at_the_depth_that_is_asked_for() {
+    let rest = "[integrator]\ntolerance = 1e-3\n[stop]\nwear_depth = 1e-7\n";
+    let record = ball("", "", LOADED, rest).end(&archard()).record;
+    let End::Stopped(reason) = &record.end else { panic!("{:?}", record.end) };
+    let last = record.history.last().expect("rows");
+    assert!(reason.contains("wear_depth") && last.max_wear_depth >= 1e-7 && last.time < 0.02, "{reason} {last:?}");
+    let deepest = record.wear.iter().fold(0.0, |most: f64, wear| most.max(*wear));
+    assert_eq!(deepest, last.max_wear_depth);
+}
+
+#[test]
+fn a_contact_over_all_of_the_rim_ends_the_run() {
+    let over = ball("", "", "load = 2e5\nvelocity = 1.0", "[integrator]\nsubsteps = 1\n").end(&archard()).record;
+    let End::Failed(error) = over.end else { panic!("{:?}", over.end) };
+    assert!(error.to_string().contains("covers all of the grid's rim"), "{error}");
+}
+
+#[test]
+fn lifting_off_and_touching_again_leaves_wear_as_it_was() {
+    let rest = "[[step]]\nduration = 0.01\nload = 0.0\nvelocity = 1.0\n[integrator]\nsubsteps = 2\n";
+    let once = run(&ball("", "", LOADED, "[integrator]\nsubsteps = 2\n"));
+    let lifted = run(&ball("", "", LOADED, rest));
+    assert_eq!(once.wear, lifted.wear);
+    assert!(lifted.pressure.iter().all(|pressure| *pressure == 0.0));
+}
