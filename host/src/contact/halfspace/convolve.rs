@@ -145,8 +145,8 @@ impl Convolution {
                 }
             }
         });
-        let (columns, symbol) =
-            (Columns { forward: &*self.forward_column, backward: &*self.backward_column }, &self.symbol);
+        let columns = Columns { forward: &*self.forward_column, backward: &*self.backward_column };
+        let symbol = &self.symbol;
         if ny == 1 && self.padded[1] == 1 {
             for (x, value) in (0..bins).map(|x| (x, symbol.values[x])) {
                 self.spectrum[x / STRIP * apart + x % STRIP] *= value;

@@ -55,6 +55,23 @@ impl Descent {
         sum(threads, count, |i| (self.residual[i] - mean).powi(2)).sqrt()
     }
 
+    /// One step straight down the gradient, as far as the energy falls.
+    pub fn straight(&mut self, patch: &mut Patch<'_>, set: &ContactSet) {
+        let (threads, count) = (patch.threads, set.len());
+        let mut direction = self.residual.clone();
+        if patch.sum.is_some() {
+            let mean = sum(threads, count, |i| direction[i]) / count.max(1) as f64;
+            change(threads, &mut direction, |_, value| value - mean);
+        }
+        let mut image = vec![0.0; count];
+        patch.image(set, &direction, &mut image);
+        self.iterations += 1;
+        let step = dot(threads, &self.residual, &direction) / dot(threads, &direction, &image);
+        if step > 0.0 && step.is_finite() {
+            change(threads, &mut self.pressure, |i, p| p - step * direction[i]);
+        }
+    }
+
     /// Goes down to the goal; under a load the sum of the pressures stays. False: the operator is not positive there.
     ///
     /// A search direction that keeps the sum is the preconditioned residual less that multiple of the preconditioned
@@ -74,7 +91,7 @@ impl Descent {
             stencil.apply(patch, &vec![1.0; count], &mut unit);
             unit_sum = sum(threads, count, |i| unit[i]);
         }
-        let own = 1.0 / stencil.diagonal();
+        let own = stencil.own();
         let (mut direction, mut image, mut steep) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
         let mut last = 0.0;
         for iteration in 0..goal.most {

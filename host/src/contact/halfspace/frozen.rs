@@ -24,6 +24,7 @@ pub fn close(patch: &mut Patch<'_>, set: &ContactSet, tolerance: f64, pressure: 
     }
     let gap = set.gather(&patch.gap);
     let mut stencil = Stencil::new(patch, set);
+    stencil.turn_to(patch, set);
     let mut descent = Descent { pressure: values, residual: gap.clone(), iterations: 0 };
     let mut reference = descent.norm(patch);
     let mut image = vec![0.0; count];

@@ -18,6 +18,7 @@ mod residual;
 mod scaled;
 mod search;
 mod solve;
+mod state;
 mod stencil;
 mod symbol;
 #[cfg(test)]

@@ -29,6 +29,8 @@ pub struct Scaled<'a> {
     pub datum: f64,
     /// Sum of the pressures of all cells, if the load is given; otherwise the approach is 0.
     pub sum: Option<f64>,
+    /// Whether nothing presses: no pressure is the answer.
+    pub idle: bool,
     /// The length that errors are measured with; 0 if it is not known.
     pub scale: f64,
     /// Unit of local compliances.
@@ -83,6 +85,7 @@ impl<'a> Scaled<'a> {
             (None, Control::Approach(approach)) => (approach - lowest).max(0.0),
         };
         let unit = power_of_two((pressure / stiffness).max(pressing));
+        let idle = pressure == 0.0 && pressing <= 0.0;
         let units = Units { gap: unit, pressure: unit * stiffness };
         Ok(Scaled {
             problem,
@@ -92,6 +95,7 @@ impl<'a> Scaled<'a> {
                 Control::Load(load) => Some(load / cells.area() / units.pressure),
                 Control::Approach(_) => None,
             },
+            idle,
             scale: if problem.scale.is_finite() && problem.scale > 0.0 { problem.scale / unit } else { 0.0 },
             compliance: stiffness,
         })

@@ -16,7 +16,7 @@ const MOST_WINDOWS: usize = 6;
 /// Solves a problem; see [`crate::contact::ContactModel::solve`].
 pub fn solve(model: &mut HalfSpace, problem: &Problem<'_>, pressure: &mut [f64]) -> Result<Solution, ContactError> {
     let scaled = Scaled::new(problem, &model.cells, model.modulus_unit / model.length)?;
-    if problem.frozen.is_none() && scaled.sum.is_some_and(|sum| sum <= 0.0) {
+    if scaled.idle || (problem.frozen.is_none() && scaled.sum.is_some_and(|sum| sum <= 0.0)) {
         pressure.fill(0.0);
         return Ok(Solution { approach: scaled.datum, ..Solution::default() });
     }
@@ -60,6 +60,10 @@ fn determined(
     }
     let count = problem.gap.len();
     let mean = super::passes::sum(1, count, |cell| scaled.gap(cell)) / count as f64;
+    if mean == f64::INFINITY {
+        // Where nothing can touch, contact is never full.
+        return Ok(());
+    }
     let largest = (0..count).fold(0.0, |most: f64, cell| most.max(scaled.gap(cell).abs()));
     let rounding = 8.0 * f64::EPSILON * largest;
     let refused = if problem.frozen.is_some() { mean.abs() > rounding } else { mean <= rounding };

@@ -17,11 +17,14 @@ const REACH_2D: usize = 16;
 const GRID_3D: usize = 32;
 const GRID_2D: usize = 128;
 
-/// A symmetric stencil, and a factor for each cell of the set where the local compliance varies.
+/// A near inverse of A + b on a set, symmetric and positive definite.
 pub struct Stencil {
     reach: [usize; 2],
     /// `[2 reach y + 1][2 reach x + 1]`.
     entries: Vec<f64>,
+    /// What a cell alone would give without local compliance, and the stiffness that the entries are for.
+    own: f64,
+    mean: f64,
     /// Values around the window, `reach` cells beyond it on every side; zero off the set.
     field: Vec<f64>,
     /// Cells in a row of `field`.
@@ -33,37 +36,45 @@ pub struct Stencil {
 }
 
 impl Stencil {
-    /// For the cells of a window with this local compliance.
+    /// For the local compliances of a set, about.
     pub fn new(patch: &Patch<'_>, set: &ContactSet) -> Stencil {
         let [nx, ny] = patch.counts;
-        let flat = patch.kernel.flat;
-        let reach = if flat { [REACH_2D, 0] } else { [REACH_3D.min(nx / 2), REACH_3D.min(ny / 2)] };
-        let size = if flat { [GRID_2D, 1] } else { [GRID_3D; 2] };
-        let reach = [reach[0].min(nx / 2), reach[1]];
-        // What a cell alone would give, to compare the local compliance with.
-        let zero = entries(patch, size, reach, 0.0);
-        let own = 1.0 / zero[zero.len() / 2];
-        let (entries, factors) = if patch.varies() {
-            let stiffness = |cell: &u32| 1.0 / (own + patch.local(*cell as usize));
-            let mean = set.cells.iter().map(stiffness).sum::<f64>() / set.len().max(1) as f64;
-            let entries = entries(patch, size, reach, (1.0 / mean - own).max(0.0));
-            let factors = set.cells.iter().map(|cell| (stiffness(cell) / mean).sqrt()).collect();
-            (entries, factors)
+        let (reach, size) = if patch.kernel.flat {
+            ([REACH_2D.min(nx / 2), 0], [GRID_2D, 1])
         } else {
-            (entries(patch, size, reach, patch.local(0)), Vec::new())
+            ([REACH_3D.min(nx / 2), REACH_3D.min(ny / 2)], [GRID_3D; 2])
         };
+        let mut entries = inverse(patch, size, reach, 0.0);
+        let own = 1.0 / entries[entries.len() / 2];
+        let stiffness = |cell: &u32| 1.0 / (own + patch.local(*cell as usize));
+        let mean = set.cells.iter().map(stiffness).sum::<f64>() / set.len().max(1) as f64;
+        let local = if patch.varies() { (1.0 / mean - own).max(0.0) } else { patch.local(0) };
+        if local > 0.0 {
+            entries = inverse(patch, size, reach, local);
+        }
         let pitch = nx + 2 * reach[0];
-        let places = set.cells.iter().map(|cell| {
-            let (x, y) = (*cell as usize % nx, *cell as usize / nx);
-            ((y + reach[1]) * pitch + x + reach[0]) as u32
-        });
-        let places = places.collect();
-        Stencil { reach, entries, field: vec![0.0; pitch * (ny + 2 * reach[1])], pitch, places, factors }
+        let field = vec![0.0; pitch * (ny + 2 * reach[1])];
+        Stencil { reach, entries, own, mean, field, pitch, places: Vec::new(), factors: Vec::new() }
     }
 
-    /// The entry of a cell for itself.
-    pub fn diagonal(&self) -> f64 {
-        self.entries[self.entries.len() / 2]
+    /// Confines it to a set.
+    pub fn turn_to(&mut self, patch: &Patch<'_>, set: &ContactSet) {
+        if patch.varies() {
+            let stiffness = |cell: &u32| 1.0 / (self.own + patch.local(*cell as usize));
+            self.factors = set.cells.iter().map(|cell| (stiffness(cell) / self.mean).sqrt()).collect();
+        }
+        self.places.iter().for_each(|place| self.field[*place as usize] = 0.0);
+        let [nx, _] = patch.counts;
+        let place = |cell: &u32| {
+            let (x, y) = (*cell as usize % nx, *cell as usize / nx);
+            ((y + self.reach[1]) * self.pitch + x + self.reach[0]) as u32
+        };
+        self.places = set.cells.iter().map(place).collect();
+    }
+
+    /// What a cell does to itself, about.
+    pub fn own(&self) -> f64 {
+        self.own
     }
 
     /// out = the near inverse of A + b, times values on the set.
@@ -109,9 +120,10 @@ impl Stencil {
 }
 
 /// The entries: the inverse transform of 1 / (a + b m), a being the compliance of a mode and m what smoothing leaves of it.
-fn entries(patch: &Patch<'_>, size: [usize; 2], reach: [usize; 2], local: f64) -> Vec<f64> {
+fn inverse(patch: &Patch<'_>, size: [usize; 2], reach: [usize; 2], local: f64) -> Vec<f64> {
     let wave = |k: usize, axis: usize| 2.0 * PI * k as f64 / size[axis] as f64;
     let smooth = |k: usize, axis: usize| if patch.smoothed { (0.5 * wave(k, axis)).cos().powi(2) } else { 1.0 };
+    // A uniform displacement needs no pressure, or far less than any other.
     let stiffness = |x: usize, y: usize| {
         let compliance = patch.kernel.mode([x, y], size);
         let all = compliance + local * smooth(x, 0) * smooth(y, 1);

@@ -1,0 +1,149 @@
+//! What pressures amount to, and the ways from one to better ones that need no transform.
+
+use super::passes::{change, each_chunk, sum};
+use super::patch::Patch;
+
+/// What a pressure and its displacement amount to.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct State {
+    /// Sum of the pressures.
+    pub total: f64,
+    /// Sums of p gap and p |gap|.
+    pub weighted: [f64; 2],
+    /// Lowest gap.
+    pub lowest: f64,
+    /// Largest displacement, or what the largest pressure displaces its own cell, if that is more, in contact.
+    pub displaced: f64,
+    /// Largest gap without pressure in contact.
+    pub height: f64,
+    /// Sum of p (u / 2 + gap).
+    pub energy: f64,
+    /// Sum of p |u / 2 + gap|.
+    pub energies: f64,
+}
+
+impl State {
+    /// Of pressures and their displacements.
+    pub fn of(patch: &Patch<'_>, pressure: &[f64], u: &[f64]) -> State {
+        let own = patch.kernel.mode([1, 0], [2, 1]);
+        let parts = each_chunk(patch.threads, pressure.len(), |range| {
+            let mut part = State { lowest: f64::INFINITY, ..State::default() };
+            for cell in range {
+                let (p, first, u) = (pressure[cell], patch.gap[cell], u[cell]);
+                let gap = first + u;
+                part.lowest = part.lowest.min(gap);
+                if p > 0.0 {
+                    part.total += p;
+                    part.weighted[0] += p * gap;
+                    part.weighted[1] += p * gap.abs();
+                    part.displaced = part.displaced.max(u.abs()).max(own * p);
+                    part.height = part.height.max(first.abs());
+                    part.energy += p * (0.5 * u + first);
+                    part.energies += p * (0.5 * u.abs() + first.abs());
+                }
+            }
+            part
+        });
+        let add = |a: State, b: State| State {
+            total: a.total + b.total,
+            weighted: [a.weighted[0] + b.weighted[0], a.weighted[1] + b.weighted[1]],
+            lowest: a.lowest.min(b.lowest),
+            displaced: a.displaced.max(b.displaced),
+            height: a.height.max(b.height),
+            energy: a.energy + b.energy,
+            energies: a.energies + b.energies,
+        };
+        parts.into_iter().fold(State { lowest: f64::INFINITY, ..State::default() }, add)
+    }
+
+    /// The approach that goes with it.
+    pub fn approach(&self, patch: &Patch<'_>) -> f64 {
+        if patch.sum.is_some() && self.total > 0.0 { self.weighted[0] / self.total } else { 0.0 }
+    }
+
+    /// The complementarity error, as a length.
+    pub fn error(&self, patch: &Patch<'_>) -> f64 {
+        if patch.sum.is_some() {
+            return self.approach(patch) - self.lowest;
+        }
+        let mean = if self.total > 0.0 { self.weighted[1] / self.total } else { 0.0 };
+        mean + (-self.lowest).max(0.0)
+    }
+}
+
+/// Goes to the state with the least energy between the one before and this one; says how much of the way is left.
+///
+/// It costs no transform, because the displacement is linear on it.
+pub fn go_back(patch: &Patch<'_>, before: &[f64], u_before: &[f64], pressure: &mut [f64], u: &mut [f64]) -> f64 {
+    let (threads, count) = (patch.threads, pressure.len());
+    // Where nothing touches before or after there may be no gap to multiply with.
+    let along = |i: usize| {
+        let change = pressure[i] - before[i];
+        if change == 0.0 { 0.0 } else { change * (patch.gap[i] + u_before[i]) }
+    };
+    let slope = sum(threads, count, along);
+    let curvature = sum(threads, count, |i| (pressure[i] - before[i]) * (u[i] - u_before[i]));
+    let step = (-slope / curvature).clamp(0.0, 1.0);
+    if step.is_nan() {
+        return 1.0;
+    }
+    change(threads, pressure, |i, p| before[i] + step * (p - before[i]));
+    change(threads, u, |i, u| u_before[i] + step * (u - u_before[i]));
+    step
+}
+
+/// The multiple of the pressures with the least energy, when no load says how large they are: a uniform change of all
+/// pressures, which displaces the most, is what descents that are broken off find last.
+pub fn enlarge(patch: &Patch<'_>, pressure: &mut [f64], u: &mut [f64], state: &State) {
+    let curvature = 2.0 * (state.weighted[0] - state.energy);
+    let factor = 1.0 - state.weighted[0] / curvature;
+    if curvature > 0.0 && factor > 0.0 && factor.is_finite() {
+        change(patch.threads, pressure, |_, p| p * factor);
+        change(patch.threads, u, |_, u| u * factor);
+    }
+}
+
+/// Makes a start possible: no pressure below zero or where nothing can touch, and the sum that is given.
+pub fn start(patch: &Patch<'_>, pressure: &mut [f64]) {
+    change(
+        patch.threads,
+        pressure,
+        |cell, p| if p.is_finite() && p > 0.0 && patch.gap[cell].is_finite() { p } else { 0.0 },
+    );
+    rescale(patch, pressure);
+}
+
+/// Gives the pressures the sum that is given.
+pub fn rescale(patch: &Patch<'_>, pressure: &mut [f64]) {
+    let Some(wanted) = patch.sum else { return };
+    let total = sum(patch.threads, pressure.len(), |cell| pressure[cell]);
+    let factor = wanted / total;
+    if total > 0.0 && factor.is_finite() {
+        change(patch.threads, pressure, |_, p| p * factor);
+    } else {
+        let touching = patch.gap.iter().filter(|gap| gap.is_finite()).count();
+        let mean = wanted / touching as f64;
+        change(patch.threads, pressure, |cell, _| if patch.gap[cell].is_finite() { mean } else { 0.0 });
+    }
+}
+
+/// Moves values on a set to the nearest that are not negative and, under a load, have the sum that is given.
+pub fn project(patch: &Patch<'_>, values: &mut [f64]) {
+    if let Some(wanted) = patch.sum {
+        // The shift grows with each cell that it leaves without pressure, so this ends.
+        let (mut shift, mut count) = (f64::NEG_INFINITY, usize::MAX);
+        loop {
+            let (mut sum, mut left) = (0.0, 0);
+            for value in values.iter().filter(|value| **value > shift) {
+                sum += value;
+                left += 1;
+            }
+            if left == 0 || left >= count {
+                break;
+            }
+            (shift, count) = ((sum - wanted) / left as f64, left);
+        }
+        values.iter_mut().for_each(|value| *value -= shift);
+    }
+    values.iter_mut().for_each(|value| *value = value.max(0.0));
+}
