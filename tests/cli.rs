@@ -3,7 +3,7 @@
 #[path = "support/program.rs"]
 mod program;
 
-use program::{Ended, LAW, REFUSING, fails, folder, json, run, wearlaw, write};
+use program::{LAW, REFUSING, ended, fails, folder, json, run, wearlaw, write};
 use serde_json::Value;
 
 const DECK: &str = "ET,1,185\nTB,WEAR,7,,,ARCD\nTBDATA,1,1e-4,1e10,1,1\n";
@@ -172,7 +172,7 @@ fn an_interrupted_build_ends_with_130_and_leaves_nothing() {
     std::fs::set_permissions(&compiler, std::fs::Permissions::from_mode(0o755)).expect("permissions");
     let before = std::fs::read_dir(here.path()).unwrap().count();
     let mut command = wearlaw(here.path(), &["build", "half.c", "--json"]);
-    let ended = Ended::from(command.env("CC", &compiler).output().expect("the program starts"));
+    let ended = ended(command.env("CC", &compiler).output().expect("the program starts"), &["build"]);
     assert_eq!(ended.code, 130, "{}", ended.stderr);
     let document = json(&ended.stdout);
     assert_eq!((&document["exit_code"], &document["error"]["kind"]), (&130.into(), &"interrupted".into()));
