@@ -4,6 +4,7 @@ use std::io::ErrorKind;
 
 use crate::apdl::DeckError;
 use crate::contact::prescribed::HistoryError;
+use crate::contact::surface::SurfaceError;
 use crate::error::Error;
 use crate::integrator::AdvanceError;
 use crate::law::EvaluateError;
@@ -151,11 +152,18 @@ fn of_solving(error: &SolveError) -> ExitCode {
             AdvanceError::Evaluate(PointError::Batch(_)) => ExitCode::ProgramFault,
             AdvanceError::Evaluate(PointError::Direction { by_law: false, .. }) => ExitCode::InputWrong,
             AdvanceError::Evaluate(
-                PointError::Direction { .. } | PointError::SmallestStep(_) | PointError::NotLinear { .. },
+                PointError::Direction { .. }
+                | PointError::SmallestStep(_)
+                | PointError::NotLinear { .. }
+                | PointError::NotProportional { .. }
+                | PointError::NotMonotone { .. },
             )
             | AdvanceError::SmallestStep { .. } => ExitCode::LawFailed,
-            AdvanceError::Tolerance { .. } => ExitCode::NumbersFailed,
+            AdvanceError::Evaluate(PointError::Contact(_) | PointError::Newton { .. })
+            | AdvanceError::Tolerance { .. } => ExitCode::NumbersFailed,
         },
+        SolveError::Surface(error) => of_surface(error),
+        SolveError::BeyondLimit { .. } | SolveError::DomainFull { .. } => ExitCode::NumbersFailed,
         SolveError::Threads { .. } => ExitCode::ReadWriteFailed,
         SolveError::Reference(ReferenceError::Read { source, .. }) => match source.kind() {
             csv::ErrorKind::Io(cause) => of_reading(cause.kind()),
@@ -163,6 +171,10 @@ fn of_solving(error: &SolveError) -> ExitCode {
         },
         SolveError::Reference(_) => ExitCode::InputWrong,
     }
+}
+
+fn of_surface(error: &SurfaceError) -> ExitCode {
+    if error.is_io() { ExitCode::ReadWriteFailed } else { ExitCode::InputWrong }
 }
 
 /// A name that leads nowhere was typed wrongly; anything else is the machine's.

@@ -49,11 +49,10 @@ pub(super) fn command(console: &Console, arguments: PlanArguments) -> Result<Exi
     rows.push(vec!["together".to_owned(), bytes(total)]);
     text.push_str(&aligned(&rows, 2));
     text.push_str(&format!("\n{}\n", console.headline("cost")));
-    let cost = [
-        vec!["points".to_owned(), run.points().to_string()],
-        vec!["pieces of loading".to_owned(), pieces.to_string()],
-        vec!["evaluations of the law, at least".to_owned(), least.to_string()],
-    ];
+    let cost =
+        [vec!["points".to_owned(), run.points().to_string()], vec!["pieces of loading".to_owned(), pieces.to_string()]];
+    let least = least.map(|least| vec!["evaluations of the law, at least".to_owned(), least.to_string()]);
+    let cost: Vec<Vec<String>> = cost.into_iter().chain(least).collect();
     text.push_str(&aligned(&cost, 2));
     console.result(&text)?;
     Ok(ExitCode::Done)

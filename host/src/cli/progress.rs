@@ -40,6 +40,14 @@ impl Progress {
         Self { bar }
     }
 
+    /// Shows how far a try is.
+    pub(super) fn try_at(&self, time: f64, fraction: f64) {
+        if !self.bar.is_hidden() {
+            self.bar.set_position((fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
+            self.bar.set_message(format!("time {}  trying", significant(time, 3)));
+        }
+    }
+
     /// Shows how far the run is; the bar draws no more often than anyone can read.
     pub(super) fn show(&self, stage: &Stage) {
         if self.bar.is_hidden() {

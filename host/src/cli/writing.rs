@@ -27,6 +27,7 @@ impl Observer for Listener<'_> {
                 contact_area: row.contact_area,
                 max_wear_depth: row.max_wear_depth,
             }),
+            Event::Trial { time, done } => self.progress.try_at(time, done),
             Event::Warning(text) => self.console.note(&format!("warning: {text}")),
             Event::Snapshot(snapshot) => {
                 if let Some(series) = &mut self.fields

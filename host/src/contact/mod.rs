@@ -1,14 +1,21 @@
 //! Contact pressure from load and gap, one module per contact model.
 //! Here are the prescribed model, whose pressure and motion are data read from a history, and the models that answer
-//! back: what they are asked ([`Problem`]), what they answer ([`Solution`]) and the trait they share ([`ContactModel`]).
+//! back: the initial gap that they start from ([`surface`]), what they are asked ([`Problem`]), what they answer
+//! ([`Solution`]) and the trait they share ([`ContactModel`]).
 //! Not here: what wear does with the pressure (integrator) and which columns a scene needs (plan).
 
 mod cells;
 mod error;
 pub mod foundation;
+pub mod halfspace;
+mod npy;
 pub mod prescribed;
 mod problem;
+pub mod surface;
+mod traction;
 
 pub use cells::Cells;
 pub use error::ContactError;
+pub use npy::ArrayFault;
 pub use problem::{ContactModel, Control, Diagonal, Problem, Solution};
+pub use traction::nodal_traction;

@@ -47,11 +47,14 @@ pub struct Problem<'a> {
     /// Local compliance that is added to the model's own.
     pub diagonal: Diagonal<'a>,
     /// Whether the diagonal acts on the smoothed pressure M p instead of p, M = B^T B being the average from cells to
-    /// corners and back, over cells that carry pressure: wear from nodal stresses.
+    /// corners and back: wear from nodal stresses. It reaches one cell beyond the contact, and the conditions hold with
+    /// it there too; without that some problems had no solution.
     pub smoothed: bool,
     /// What is given.
     pub control: Control,
-    /// Largest sum p (gap - smallest gap) / (sum p * scale).
+    /// Largest sum p (gap - smallest gap) / (sum p * scale); under an approach that of
+    /// (sum p |gap| / sum p + deepest overlap) / scale. On a frozen set, largest ||gap||2 over that of the start without
+    /// pressure or with a uniform one, whichever is larger; under a load their means are subtracted.
     pub tolerance: f64,
     /// Length that the complementarity error is measured with: the standard deviation of the initial gap.
     pub scale: f64,

@@ -1,15 +1,17 @@
 //! Advancing wear in time.
 //!
 //! Here are the quadrature of a wear rate over a piece of loading ([`quadrature`]) and the advance by whole substeps
-//! of laws that have a memory ([`substeps`]), both over one chunk of points with an error estimate and step control.
-//! Contact that answers back, and the choice of what to advance with, are not here.
+//! of laws that have a memory ([`substeps`]), both over one chunk of points with an error estimate and step control; and
+//! the steps of a surface that answers back ([`Stages`]). The choice of what to advance with is not here.
 
+mod answering;
 mod counters;
 mod rules;
 
 pub mod quadrature;
 pub mod substeps;
 
+pub use answering::{Answering, Formula, Span, Stages, Tried};
 pub use counters::Tally;
 pub use rules::Rule;
 

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 /// The columns of `history.csv`.
-pub const HISTORY_COLUMNS: [&str; 10] = [
+pub const HISTORY_COLUMNS: [&str; 12] = [
     "time",
     "dt",
     "sliding_distance",
@@ -20,6 +20,8 @@ pub const HISTORY_COLUMNS: [&str; 10] = [
     "max_wear_depth",
     "wear_volume",
     "scale",
+    "simulated_time",
+    "cycle",
 ];
 
 /// Writes `history.csv`: a header, then a row per accepted step.
@@ -44,6 +46,8 @@ fn history_rows(history: &History, to: &mut impl Write) -> io::Result<()> {
             Some(row.max_wear_depth),
             row.wear_volume,
             Some(row.scale),
+            Some(row.simulated_time),
+            Some(row.cycle),
         ];
         for (i, cell) in cells.iter().enumerate() {
             let comma = if i == 0 { "" } else { "," };

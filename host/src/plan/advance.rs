@@ -66,7 +66,7 @@ pub(super) fn choose(scene: &Scene, law: &LawDescriptor) -> Result<(Advance, Str
 }
 
 /// Why a law is not a wear rate; `None` if it is one.
-fn no_rate(law: &LawDescriptor) -> Option<&'static str> {
+pub(super) fn no_rate(law: &LawDescriptor) -> Option<&'static str> {
     let fields = law.fields();
     if !law.state.is_empty() {
         Some("has state variables")

@@ -3,10 +3,11 @@
 use serde::Serialize;
 
 use crate::contact::prescribed::{Column, Header, Motion, Needs};
+use crate::integrator::quadrature::Quadrature;
 use crate::law::{Fields, LawDescriptor, UnitSizes};
 use crate::plan::needs::Setting;
 use crate::plan::output::{self, OutputPlan, ReferencePlan};
-use crate::plan::{Advance, Block, Material, PlanError, PlanProblem, advance, loading};
+use crate::plan::{Advance, Block, Material, PlanError, PlanProblem, SolvedPlan, advance, loading};
 use crate::scene::{Accuracy, Model, ScalingKind, Scene, Stop, Units};
 
 /// Something that is left out, and why.
@@ -55,7 +56,9 @@ pub struct Plan {
     pub friction: Option<f64>,
     /// The loading.
     pub blocks: Vec<Block>,
-    /// How wear is advanced.
+    /// The contact that answers back; `None`: pressure is prescribed.
+    pub solved: Option<SolvedPlan>,
+    /// How wear is advanced under a prescribed pressure.
     pub advance: Advance,
     /// Fixed substeps per load step, if they are fixed.
     pub substeps: Option<u64>,
@@ -85,16 +88,16 @@ impl Plan {
     /// # Errors
     /// Whatever the scene asks for and cannot have, with the place of the key.
     pub fn new(scene: &Scene, law: &LawDescriptor) -> Result<Plan, PlanError> {
-        let Model::Prescribed(prescribed) = &scene.contact.model else {
-            let model = scene.contact.model.kind().to_string();
-            return Err(scene.error_at("contact.model", PlanProblem::ModelNotBuilt { model }));
-        };
         let sizes = scene.units.sizes();
         let sizes =
             UnitSizes { metre: sizes.metre, kilogram: sizes.kilogram, second: sizes.second, kelvin: sizes.kelvin };
         let material = Material::resolve(scene, law, sizes)?;
         refuse_unbuilt(scene, &material)?;
-        let history = prescribed.history.as_ref().map(|path| scene.resolve(path));
+        let is_prescribed = matches!(scene.contact.model, Model::Prescribed(_));
+        let history = match &scene.contact.model {
+            Model::Prescribed(prescribed) => prescribed.history.as_ref().map(|path| scene.resolve(path)),
+            Model::Foundation(_) | Model::HalfSpace(_) => None,
+        };
         let header = history.as_ref().map(|path| Header::read(path)).transpose();
         let header = header.map_err(|problem| scene.error_at("contact.history", problem.into()))?;
         if let Some(header) = &header {
@@ -103,13 +106,23 @@ impl Plan {
             law.inputs.iter().for_each(|input| known.allow(&input.name));
             header.check_names(&known).map_err(|problem| scene.error_at("contact.history", problem.into()))?;
         }
-        let blocks = loading::blocks(scene, header.as_ref())?;
+        let (blocks, velocity_files) = loading::blocks(scene, header.as_ref())?;
         let output = OutputPlan::new(scene, law)?;
-        let (advance, how) = advance::choose(scene, law)?;
         let mut skipped = Vec::new();
+        let (solved, advance, how) = if is_prescribed {
+            let (advance, how) = advance::choose(scene, law)?;
+            (None, advance, how)
+        } else {
+            let (solved, how) = SolvedPlan::new(scene, law, &material, velocity_files)?;
+            solved.skipped(law, &material, &mut skipped);
+            (Some(solved), Advance::Rate(Quadrature::Fixed), how)
+        };
         let setting =
             Setting { scene, law, header: header.as_ref(), blocks: &blocks, material: &material, output: &output };
-        let needed = setting.resolve(&mut skipped)?;
+        let needed = match is_prescribed {
+            true => setting.resolve(&mut skipped)?,
+            false => setting.resolve_solved(&mut skipped)?,
+        };
         if let Some(header) = &header {
             header.check(&needed.columns).map_err(|problem| scene.error_at("contact.history", problem.into()))?;
         }
@@ -136,6 +149,7 @@ impl Plan {
             history,
             friction: scene.contact.friction,
             blocks,
+            solved,
             advance,
             substeps,
             tolerance,
@@ -153,8 +167,19 @@ impl Plan {
 }
 
 fn refuse_unbuilt(scene: &Scene, material: &Material) -> Result<(), PlanError> {
-    match material.scaling {
+    let prescribed = matches!(scene.contact.model, Model::Prescribed(_));
+    match material.scaling.kind {
         ScalingKind::None => {}
+        ScalingKind::Auto if !prescribed => {
+            if matches!(scene.integrator.accuracy, Accuracy::Tolerance(_)) {
+                return Err(scene.error_at("scaling.kind", PlanProblem::ScalingNeedsSubsteps));
+            }
+            let steps = scene.steps.iter().chain(scene.cycles.iter().flat_map(|cycle| &cycle.steps));
+            if steps.into_iter().any(|step| !step.ramp.is_empty()) {
+                return Err(scene.error_at("scaling.kind", PlanProblem::ScalingOfRamp));
+            }
+        }
+        ScalingKind::Cycle if !prescribed => {}
         ScalingKind::Auto => return Err(scene.error_at("scaling.kind", PlanProblem::ScalingOfPrescribed)),
         ScalingKind::Cycle => {
             let problem = PlanProblem::NotBuilt { key: "scaling.kind = \"cycle\"".to_owned() };

@@ -74,6 +74,12 @@ impl ConstantTable {
         self.values = values;
     }
 
+    /// Whether constant `c` has this value in every row.
+    pub fn is_always(&self, c: usize, value: f64) -> bool {
+        let rows = self.times.len() * self.temperatures.len();
+        self.values.get(c * rows..(c + 1) * rows).is_some_and(|all| all.iter().all(|one| *one == value))
+    }
+
     /// Number of constants.
     pub fn count(&self) -> usize {
         self.count

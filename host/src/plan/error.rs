@@ -14,12 +14,16 @@ pub type PlanError = Located<PlanProblem>;
 /// What is wrong.
 #[derive(Debug, Error)]
 pub enum PlanProblem {
-    /// The contact model is one that this version does not run.
-    #[error("found contact model \"{model}\", which this version reads but does not run yet; expected \"prescribed\"")]
-    ModelNotBuilt {
-        /// The model.
-        model: String,
-    },
+    /// Automatic scaling without substeps of a known length.
+    #[error(
+        "found automatic scaling (AUTS) with `integrator.tolerance`, expected `integrator.substeps`: it is the wear of a substep of known length that is scaled"
+    )]
+    ScalingNeedsSubsteps,
+    /// Automatic scaling under loading that changes within a step.
+    #[error(
+        "found automatic scaling (AUTS) in a load step that ramps, expected loading that is constant over each step: a scaled substep stands for many under the same load (kind = \"cycle\" scales whole cycles)"
+    )]
+    ScalingOfRamp,
     /// A section that this version does not act on.
     #[error("found `{key}`, which this version reads but does not act on yet")]
     NotBuilt {

@@ -1,8 +1,10 @@
 //! Load steps and cycles of a scene as plain numbers.
 
+use std::path::PathBuf;
+
 use crate::contact::prescribed::{Column, Header, Motion};
 use crate::plan::{PlanError, PlanProblem};
-use crate::scene::{Drive, Field, Quantity, Scene, Sliding, Step};
+use crate::scene::{Drive, Field, Model, Quantity, Scene, Sliding, Step};
 
 /// A quantity that goes linearly from the start to the end of a load step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,12 +29,35 @@ pub struct LoadStep {
     pub duration: Option<f64>,
     /// Contact pressure, the same at every point.
     pub pressure: Option<Linear>,
+    /// Total load; per length in 2-D.
+    pub load: Option<Linear>,
+    /// Rigid-body approach.
+    pub approach: Option<Linear>,
     /// Sliding velocity.
     pub velocity: Option<Linear>,
+    /// Sliding velocities of the cells, by the index of their file.
+    pub velocity_file: Option<usize>,
+    /// Radius around the apex within which nothing slips.
+    pub stick: Option<f64>,
     /// Temperature.
     pub temperature: Option<Linear>,
     /// Friction coefficient.
     pub friction: Option<Linear>,
+}
+
+impl LoadStep {
+    /// A load step in which nothing happens.
+    pub const NOTHING: LoadStep = LoadStep {
+        duration: None,
+        pressure: None,
+        load: None,
+        approach: None,
+        velocity: None,
+        velocity_file: None,
+        stick: None,
+        temperature: None,
+        friction: None,
+    };
 }
 
 /// Load steps that are gone through `count` times.
@@ -52,7 +77,7 @@ pub struct Block {
 ///
 /// # Errors
 /// Loading that a prescribed scene cannot have.
-pub(super) fn blocks(scene: &Scene, header: Option<&Header>) -> Result<Vec<Block>, PlanError> {
+pub(super) fn blocks(scene: &Scene, header: Option<&Header>) -> Result<(Vec<Block>, Vec<PathBuf>), PlanError> {
     if header.is_some() && !scene.cycles.is_empty() && !scene.steps.is_empty() {
         return Err(scene.error_at("cycle.0", PlanProblem::StepsAndCycles));
     }
@@ -71,17 +96,18 @@ pub(super) fn blocks(scene: &Scene, header: Option<&Header>) -> Result<Vec<Block
         }
     }
     let mut blocks = Vec::new();
+    let mut files = Vec::new();
     let mut before = Step::default();
     if !scene.steps.is_empty() || scene.cycles.is_empty() {
-        let (entry, steps) = lower(scene, "step", &scene.steps, &mut before)?;
+        let (entry, steps) = lower(scene, "step", &scene.steps, &mut before, &mut files)?;
         blocks.push(Block { count: 1, cycle: false, entry, steps });
     }
     for (index, cycle) in scene.cycles.iter().enumerate() {
         let base = format!("cycle.{index}.step");
-        let (entry, steps) = lower(scene, &base, &cycle.steps, &mut before)?;
+        let (entry, steps) = lower(scene, &base, &cycle.steps, &mut before, &mut files)?;
         blocks.push(Block { count: cycle.count, cycle: true, entry, steps });
     }
-    Ok(blocks)
+    Ok((blocks, files))
 }
 
 /// Refuses a load step that gives what the history gives: one of them would be passed over in silence.
@@ -109,23 +135,41 @@ fn given_once(scene: &Scene, header: &Header, base: &str, step: &Step) -> Result
 }
 
 /// The first step as it follows what came before, and all steps as they follow each other.
-fn lower(scene: &Scene, base: &str, steps: &[Step], before: &mut Step) -> Result<(LoadStep, Vec<LoadStep>), PlanError> {
+fn lower(
+    scene: &Scene,
+    base: &str,
+    steps: &[Step],
+    before: &mut Step,
+    files: &mut Vec<PathBuf>,
+) -> Result<(LoadStep, Vec<LoadStep>), PlanError> {
     let file = |step: &Step| matches!(step.sliding, Some(Sliding::Velocity { velocity: Field::File(_) }));
-    if let Some(index) = steps.iter().position(file) {
+    let prescribed = matches!(scene.contact.model, Model::Prescribed(_));
+    if prescribed && let Some(index) = steps.iter().position(file) {
         return Err(scene.error_at(&format!("{base}.{index}.velocity"), PlanProblem::VelocityFile));
     }
     let (Some(first), Some(last)) = (steps.first(), steps.last()) else {
         return Ok((LoadStep::default(), vec![LoadStep::default()]));
     };
-    let entry = one(first, before);
+    let mut place = |step: &Step| match &step.sliding {
+        Some(Sliding::Velocity { velocity: Field::File(path) }) => {
+            let path = scene.resolve(path);
+            let known = files.iter().position(|known| *known == path);
+            Some(known.unwrap_or_else(|| {
+                files.push(path);
+                files.len() - 1
+            }))
+        }
+        _ => None,
+    };
+    let entry = one(first, before, place(first));
     let previous = std::iter::once(last).chain(steps);
-    let lowered = steps.iter().zip(previous).map(|(step, previous)| one(step, previous)).collect();
+    let lowered = steps.iter().zip(previous).map(|(step, previous)| one(step, previous, place(step))).collect();
     *before = last.clone();
     Ok((entry, lowered))
 }
 
 /// One step after another; a ramp without a start begins at 0.
-fn one(step: &Step, previous: &Step) -> LoadStep {
+fn one(step: &Step, previous: &Step, velocity_file: Option<usize>) -> LoadStep {
     let linear = |quantity: Quantity| {
         let to = value(step, quantity)?;
         let ramped = step.ramp.contains(&quantity);
@@ -134,7 +178,11 @@ fn one(step: &Step, previous: &Step) -> LoadStep {
     LoadStep {
         duration: step.duration,
         pressure: linear(Quantity::Pressure),
+        load: linear(Quantity::Load),
+        approach: linear(Quantity::Approach),
         velocity: linear(Quantity::Velocity),
+        velocity_file,
+        stick: step.stick,
         temperature: linear(Quantity::Temperature),
         friction: linear(Quantity::Friction),
     }
@@ -153,6 +201,13 @@ fn value(step: &Step, quantity: Quantity) -> Option<f64> {
         },
         Quantity::Temperature => step.temperature,
         Quantity::Friction => step.friction,
-        Quantity::Load | Quantity::Approach => None,
+        Quantity::Load => match step.drive {
+            Some(Drive::Load(load)) => Some(load),
+            _ => None,
+        },
+        Quantity::Approach => match step.drive {
+            Some(Drive::Approach(approach)) => Some(approach),
+            _ => None,
+        },
     }
 }

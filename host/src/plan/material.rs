@@ -26,9 +26,30 @@ pub struct Material {
     /// Unit vector in which material goes; `None`: against the normal, or as the law says.
     pub direction: Option<[f64; 3]>,
     /// Scaling of the wear increment.
-    pub scaling: ScalingKind,
+    pub scaling: ScalingPlan,
     /// Number of the material, for the law to know.
     pub number: i64,
+}
+
+/// Scaling of the wear increment, resolved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScalingPlan {
+    /// Which scaling.
+    pub kind: ScalingKind,
+    /// Safety factor C1, above 0 and below 1.
+    pub safety: f64,
+    /// Largest factor C2, at least 1.
+    pub maximum: f64,
+}
+
+impl ScalingPlan {
+    /// The factor on wear where one unscaled substep or cycle changes the pressure by the part `change`:
+    /// s = clamp(C1 / change, 1, C2), so that a scaled one changes it by at most C1.
+    ///
+    /// The public documents of TB,WEAR with AUTS and CBCS give the two constants and not the rule; this one is ours.
+    pub fn factor(&self, change: f64) -> f64 {
+        if change > 0.0 { (self.safety / change).clamp(1.0, self.maximum) } else { self.maximum }
+    }
 }
 
 struct Given {
@@ -58,15 +79,19 @@ impl Material {
             settle(scene, "law.direction", scene.law.direction.map(unit), documented.direction.map(unit), place)?;
         let stated = given.scaling.unwrap_or_default();
         let kind = settle(scene, "scaling.kind", scene.scaling.kind, stated.kind, place)?;
-        settle(scene, "scaling.safety", scene.scaling.safety, stated.safety, place)?;
-        settle(scene, "scaling.maximum", scene.scaling.maximum, stated.maximum, place)?;
+        let safety = settle(scene, "scaling.safety", scene.scaling.safety, stated.safety, place)?;
+        let maximum = settle(scene, "scaling.maximum", scene.scaling.maximum, stated.maximum, place)?;
         Ok(Material {
             constants: ConstantTable::new(&given.rows),
             basis: basis.unwrap_or_default(),
             average: average.unwrap_or(false),
             mode: mode.unwrap_or_default(),
             direction,
-            scaling: kind.unwrap_or_default(),
+            scaling: ScalingPlan {
+                kind: kind.unwrap_or_default(),
+                safety: safety.unwrap_or(Scaling::SAFETY),
+                maximum: maximum.unwrap_or(Scaling::MAXIMUM),
+            },
             number: given.number,
         })
     }

@@ -11,11 +11,14 @@ mod loading;
 mod material;
 mod needs;
 mod output;
+mod solved;
+mod solved_needs;
 
 pub use advance::{Advance, Sample};
 pub use build::{Plan, Skipped};
 pub use constants::{ConstantTable, Row};
 pub use error::{PlanError, PlanProblem};
 pub use loading::{Block, Linear, LoadStep};
-pub use material::Material;
+pub use material::{Material, ScalingPlan};
 pub use output::{FieldKind, OutputPlan, ReferencePlan};
+pub use solved::{Elastic, Scheme, Slope, SolvedPlan};

@@ -34,7 +34,7 @@ impl Setting<'_> {
         self.header.is_some_and(|header| header.has_column(column))
     }
 
-    fn every_step(&self, gives: impl Fn(&crate::plan::LoadStep) -> bool) -> bool {
+    pub(super) fn every_step(&self, gives: impl Fn(&crate::plan::LoadStep) -> bool) -> bool {
         self.blocks.iter().all(|block| block.steps.iter().all(&gives))
     }
 
@@ -108,7 +108,7 @@ impl Setting<'_> {
         if there { Ok(()) } else { Err(remedy) }
     }
 
-    fn missing(&self, field: &str, remedy: &str) -> PlanError {
+    pub(super) fn missing(&self, field: &str, remedy: &str) -> PlanError {
         let (law, field) = (self.law.name.clone(), format!("`{field}`"));
         let problem = PlanProblem::Missing { law, field, remedy: remedy.to_owned() };
         self.scene.error_at("law.use", problem)

@@ -14,6 +14,13 @@ pub enum Event<'a> {
         /// Part of the represented time that is done, 0 to 1.
         done: f64,
     },
+    /// A step was tried whose accuracy is not known yet: a chance to show where the run is, and to stop it.
+    Trial {
+        /// Represented time.
+        time: f64,
+        /// Part of the represented time that is done, 0 to 1.
+        done: f64,
+    },
     /// Fields were asked for at this time.
     Snapshot(&'a Snapshot<'a>),
     /// Something to know that does not end the run.

@@ -26,6 +26,10 @@ pub struct HistoryRow {
     pub wear_volume: Option<f64>,
     /// Scale factor of the step, 1 when wear is not scaled.
     pub scale: f64,
+    /// Simulated time, which scaling makes shorter than the represented time.
+    pub simulated_time: f64,
+    /// Represented cycles; 0 outside cycles.
+    pub cycle: f64,
 }
 
 impl HistoryRow {
@@ -43,6 +47,8 @@ impl HistoryRow {
             max_wear_depth: 0.0,
             wear_volume: None,
             scale: 1.0,
+            simulated_time: time,
+            cycle: 0.0,
         }
     }
 }

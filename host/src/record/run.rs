@@ -60,6 +60,8 @@ pub struct Record<E> {
     pub history: History,
     /// Wear depth `[points]`; length.
     pub wear: Vec<f64>,
+    /// Contact pressure `[points]` at the end; empty where it is prescribed.
+    pub pressure: Vec<f64>,
     /// State variables `[points * variables]`.
     pub state: Vec<f64>,
     /// Estimated relative L2 error of the wear profile by the integrator; `None`: not estimated.

@@ -2,7 +2,9 @@
 
 use thiserror::Error;
 
+use crate::contact::ContactError;
 use crate::contact::prescribed::HistoryError;
+use crate::contact::surface::SurfaceError;
 use crate::integrator::AdvanceError;
 use crate::law::{BatchError, EvaluateError, PointInputs};
 
@@ -39,6 +41,35 @@ pub enum SolveError {
         time: f64,
         /// What happened.
         source: Box<AdvanceError<PointError>>,
+    },
+    /// The initial gap could not be made.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// An explicit step is beyond the stability limit.
+    #[error(
+        "load step {load_step}, from time {time}: an explicit substep of {step:e} is beyond the stability limit \
+         {limit:e}, expected less, an implicit method, or `integrator.beyond_limit` = \"substep\" or \"run\""
+    )]
+    BeyondLimit {
+        /// Number of the load step, from 1.
+        load_step: i64,
+        /// Time at the start of the substep.
+        time: f64,
+        /// Length of the substep.
+        step: f64,
+        /// The limit there.
+        limit: f64,
+    },
+    /// The contact covers a free grid to its rim.
+    #[error(
+        "load step {load_step}, time {time}: the contact covers all of the grid's rim, so the load is larger than the \
+         domain can carry and the answer would be that of another body; expected a larger `grid.size`, or less load"
+    )]
+    DomainFull {
+        /// Number of the load step, from 1.
+        load_step: i64,
+        /// Time.
+        time: f64,
     },
     /// Threads could not be started.
     #[error("could not start {threads} threads: {text}")]
@@ -81,6 +112,54 @@ pub enum PointError {
         whole: f64,
         /// Increment over half of it.
         half: f64,
+    },
+    /// The contact could not be solved.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// A stage of an implicit step did not converge.
+    #[error(
+        "the implicit stage stays at a residual of {residual:e} after {iterations} linearisations of the law, expected at \
+         most {tolerance:e} (`contact.tolerance`); a smaller `integrator.tolerance` or more `integrator.substeps` may help"
+    )]
+    Newton {
+        /// Linearisations.
+        iterations: usize,
+        /// Residual reached, measured as the complementarity error.
+        residual: f64,
+        /// Residual asked for.
+        tolerance: f64,
+    },
+    /// A law that falls with pressure.
+    #[error(
+        "law `{law}` wears less where the pressure is higher: at point {point} the slope of the increment is {slope:e} at \
+         pressure {pressure:e}, expected at least 0 (implicit contact needs a law that does not fall with pressure)"
+    )]
+    NotMonotone {
+        /// The law.
+        law: String,
+        /// Number of the cell.
+        point: usize,
+        /// Contact pressure.
+        pressure: f64,
+        /// d increment / d pressure.
+        slope: f64,
+    },
+    /// A law that is not of pressure degree 1 although it claims to be.
+    #[error(
+        "law `{law}` claims to be of pressure degree 1, but at point {point} it gave the increment {increment:e} at \
+         pressure {pressure:e}, expected {expected:e}"
+    )]
+    NotProportional {
+        /// The law.
+        law: String,
+        /// Number of the cell.
+        point: usize,
+        /// Contact pressure.
+        pressure: f64,
+        /// What it gave.
+        increment: f64,
+        /// What follows from its answer at another pressure.
+        expected: f64,
     },
     /// A direction that does not lead into the worn body.
     #[error(

@@ -6,10 +6,13 @@
 
 mod chunk;
 mod claims;
+mod coupled;
+mod ending;
 mod error;
 mod fields;
 mod inputs;
 mod kinematics;
+mod prescribed;
 mod progress;
 mod reference;
 mod run;

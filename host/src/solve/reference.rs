@@ -7,6 +7,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use crate::contact::prescribed::Motion;
+use crate::integrator::norm;
 use crate::law::Values;
 use crate::plan::Plan;
 use crate::reference::Piece as LinearPiece;
@@ -33,10 +34,12 @@ pub struct ErrorNorm {
 #[derive(Debug, Error)]
 pub enum ReferenceError {
     /// The scene is not one that the exact answer covers.
-    #[error("the reference \"archard-prescribed\" does not cover this scene: {reason}")]
+    #[error("the reference \"{kind}\" does not cover this scene: {reason}")]
     NotCovered {
+        /// The exact answer.
+        kind: &'static str,
         /// What is not covered.
-        reason: &'static str,
+        reason: String,
     },
     /// The exact answer has no value at a point.
     #[error("the reference at point {point}: {source}")]
@@ -84,15 +87,9 @@ pub enum ReferenceError {
 
 /// Relative L2 error of a wear profile, with the largest error beside it.
 pub fn compare(wear: &[f64], exact: &[f64], reference: &str) -> ErrorNorm {
-    use crate::integrator::norm;
     let largest = exact.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
     let differences = wear.iter().zip(exact).map(|(a, b)| a - b);
-    let relative = |error: f64, size: f64| match (error, size) {
-        (0.0, _) => 0.0,
-        (_, 0.0) => f64::INFINITY,
-        (error, size) => error / size,
-    };
-    let value = relative(norm(differences.clone()), norm(exact.iter().copied()));
+    let value = relative_l2(wear, exact);
     let most = differences.fold(0.0, |most: f64, d| most.max(d.abs()));
     let by_field = [("wear_l2_relative".to_owned(), value), ("wear_max_relative".to_owned(), relative(most, largest))];
     ErrorNorm {
@@ -103,12 +100,27 @@ pub fn compare(wear: &[f64], exact: &[f64], reference: &str) -> ErrorNorm {
     }
 }
 
+/// |found - exact| / |exact| in the L2 norm over the points; 0 where both vanish.
+pub(super) fn relative_l2(found: &[f64], exact: &[f64]) -> f64 {
+    let differences = found.iter().zip(exact).map(|(a, b)| a - b);
+    relative(norm(differences), norm(exact.iter().copied()))
+}
+
+fn relative(error: f64, size: f64) -> f64 {
+    match (error, size) {
+        (0.0, _) => 0.0,
+        (_, 0.0) => f64::INFINITY,
+        (error, size) => error / size,
+    }
+}
+
 /// Checks that the exact answer to Archard's law covers a plan.
 ///
 /// # Errors
 /// What it does not cover.
 pub(super) fn covered(plan: &Plan, law: &str) -> Result<(), ReferenceError> {
-    let refuse = |reason: &'static str| Err(ReferenceError::NotCovered { reason });
+    let refuse =
+        |reason: &str| Err(ReferenceError::NotCovered { kind: "archard-prescribed", reason: reason.to_owned() });
     let material = &plan.material;
     if law != "archard" {
         return refuse("the law is not `archard`");

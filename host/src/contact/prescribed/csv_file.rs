@@ -1,5 +1,6 @@
 //! Histories in CSV: a header row with names, then a row per time and point.
 
+use super::super::npy::exact_integer;
 use super::assemble::RowIndex;
 use super::growing::Growing;
 use super::header::open;
@@ -182,12 +183,7 @@ fn parse(text: &[u8]) -> Option<f64> {
 /// An integer, also where a program wrote it as a decimal number.
 fn parse_id(text: &[u8]) -> Option<i64> {
     let text = std::str::from_utf8(text).ok()?;
-    text.parse().ok().or_else(|| id_of(text.parse().ok()?))
-}
-
-/// The integer that a double stands for exactly.
-pub(super) fn id_of(value: f64) -> Option<i64> {
-    (value.fract() == 0.0 && value.abs() <= 9_007_199_254_740_992.0).then_some(value as i64)
+    text.parse().ok().or_else(|| exact_integer(text.parse().ok()?))
 }
 
 fn bad_number(header: &Header, field: usize, text: &[u8], line: u64) -> HistoryError {

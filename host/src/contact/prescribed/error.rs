@@ -114,7 +114,7 @@ pub enum HistoryError {
     Archive { path: PathBuf, reason: String },
     /// A member of the archive that is not an array as documented.
     #[error("{}: array `{name}`: {fault}", path.display())]
-    Array { path: PathBuf, name: String, fault: super::npy::ArrayFault },
+    Array { path: PathBuf, name: String, fault: super::super::npy::ArrayFault },
     /// An array whose shape fits neither the times nor the points.
     #[error("{}: array `{name}` has shape {}, expected {expected}", path.display(), shape_text(shape))]
     Shape { path: PathBuf, name: String, shape: Vec<usize>, expected: String },

@@ -9,7 +9,6 @@ mod error;
 mod growing;
 mod header;
 mod history;
-mod npy;
 mod npz_file;
 mod npz_shape;
 mod samples;

@@ -1,10 +1,10 @@
 //! Histories in NPZ: an archive of arrays, read in place where the file allows it.
 
+use super::super::npy::{ArrayFault, ArrayHeader};
 use super::assemble::RowIndex;
 use super::growing::fold;
 use super::header::open;
 use super::history::PointIds;
-use super::npy::{ArrayFault, ArrayHeader};
 use super::npz_shape::{Extent, extent, steps};
 use super::samples::{ColumnData, Samples, map_file};
 use super::{Column, Header, History, HistoryError, Layout, Needs};

@@ -1,4 +1,4 @@
-//! One array of an NPZ archive: its header, and its elements as doubles or as ids.
+//! One array in `.npy` format, alone or in an NPZ archive: its header, and its elements as doubles or as ids.
 //!
 //! Source: the NumPy format description (`numpy.lib.format`), versions 1 to 3.
 
@@ -28,7 +28,7 @@ pub enum ArrayFault {
         /// Bytes that the shape asks for.
         expected: u64,
     },
-    /// The archive member cannot be read to its end.
+    /// The file or archive member cannot be read to its end.
     #[error("cannot be read to its end: {0}")]
     Damaged(String),
 }
@@ -133,7 +133,7 @@ impl ArrayHeader {
         mut take: impl FnMut(Option<i64>, f64),
     ) -> Result<(), ArrayFault> {
         if self.element == Element::Float {
-            return self.each(reader, |value| take(super::csv_file::id_of(value), value));
+            return self.each(reader, |value| take(exact_integer(value), value));
         }
         self.each_chunk(reader, |chunk| {
             for bytes in chunk.chunks_exact(self.width) {
@@ -171,6 +171,11 @@ impl ArrayHeader {
             held -= whole;
         }
     }
+}
+
+/// The integer that a double stands for exactly.
+pub(super) fn exact_integer(value: f64) -> Option<i64> {
+    (value.fract() == 0.0 && value.abs() <= 9_007_199_254_740_992.0).then_some(value as i64)
 }
 
 /// The bytes of an element as an unsigned number.

@@ -1,0 +1,261 @@
+//! Convolution with an even kernel over a rectangle of cells, one pair of transforms each time.
+//!
+//! Rows are transformed first. Only rows with cells in them are: the rest of a padded grid is zero on the way in and
+//! unused on the way out. The spectrum is kept in strips of a few columns `[strip][row][column]`, so that a strip fits
+//! the cache while its columns are transformed, multiplied and transformed back in one pass.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::{Fft, FftPlanner, num_complex::Complex};
+
+use super::symbol::Quarter;
+
+/// Columns in a strip: two lines of cache in each row.
+const STRIP: usize = 8;
+const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
+
+/// Memory that one thread works in.
+#[derive(Clone, Debug, Default)]
+struct Bench {
+    row: Vec<f64>,
+    bins: Vec<Complex<f64>>,
+    columns: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+}
+
+/// A convolution that is ready to be applied.
+pub struct Convolution {
+    counts: [usize; 2],
+    padded: [usize; 2],
+    symbol: Quarter,
+    /// `[strip][row][STRIP]`, the strips a little apart so that they do not fall on the same lines of cache.
+    spectrum: Vec<Complex<f64>>,
+    forward: Arc<dyn RealToComplex<f64>>,
+    backward: Arc<dyn ComplexToReal<f64>>,
+    forward_column: Arc<dyn Fft<f64>>,
+    backward_column: Arc<dyn Fft<f64>>,
+    benches: Vec<Bench>,
+}
+
+/// Where values come from and go to, row by row.
+pub trait Rows: Sync {
+    /// Where the values of row `row` begin in the output; of one past the last row: where they end.
+    fn start(&self, row: usize) -> usize;
+    /// Writes a row that holds zeros; false: it stays zero.
+    fn read(&self, row: usize, values: &mut [f64]) -> bool;
+    /// Takes what is wanted of a row.
+    fn write(&self, row: usize, values: &[f64], out: &mut [f64]);
+}
+
+/// All cells, in the order of the grid.
+pub struct Dense<'a> {
+    /// Cells in a row.
+    pub width: usize,
+    /// Input `[rows * width]`.
+    pub input: &'a [f64],
+}
+
+impl Rows for Dense<'_> {
+    fn start(&self, row: usize) -> usize {
+        row * self.width
+    }
+
+    fn read(&self, row: usize, values: &mut [f64]) -> bool {
+        let input = &self.input[row * self.width..][..self.width];
+        values[..self.width].copy_from_slice(input);
+        input.iter().any(|value| *value != 0.0)
+    }
+
+    fn write(&self, _: usize, values: &[f64], out: &mut [f64]) {
+        out.copy_from_slice(&values[..out.len()]);
+    }
+}
+
+impl Convolution {
+    /// Over `counts` cells with the transform of a kernel on a padded grid (or one of the same size: periodic); with the
+    /// threads of rayon's current pool if `threads` is not 1.
+    pub fn new(counts: [usize; 2], mut symbol: Quarter, threads: usize) -> Convolution {
+        let padded = symbol.periods;
+        let normal = 1.0 / (padded[0] * padded[1]) as f64;
+        symbol.values.iter_mut().for_each(|value| *value *= normal);
+        let (mut real, mut complex) = (RealFftPlanner::new(), FftPlanner::new());
+        let forward = real.plan_fft_forward(padded[0]);
+        let backward = real.plan_fft_inverse(padded[0]);
+        let forward_column: Arc<dyn Fft<f64>> = complex.plan_fft_forward(padded[1]);
+        let backward_column = complex.plan_fft_inverse(padded[1]);
+        let strips = (padded[0] / 2 + 1).div_ceil(STRIP);
+        let scratch = forward.get_scratch_len().max(backward.get_scratch_len());
+        let scratch = scratch.max(forward_column.get_inplace_scratch_len());
+        let scratch = scratch.max(backward_column.get_inplace_scratch_len());
+        let bench = Bench {
+            row: vec![0.0; padded[0]],
+            bins: vec![ZERO; strips * STRIP],
+            columns: vec![ZERO; STRIP * padded[1]],
+            scratch: vec![ZERO; scratch],
+        };
+        let benches = if threads > 1 { 2 * threads } else { 1 };
+        Convolution {
+            counts,
+            padded,
+            symbol,
+            spectrum: vec![ZERO; strips * STRIP * (counts[1] + 1)],
+            forward,
+            backward,
+            forward_column,
+            backward_column,
+            benches: vec![bench; benches],
+        }
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        let complex = size_of::<Complex<f64>>();
+        let benches: usize = self
+            .benches
+            .iter()
+            .map(|b| 8 * b.row.len() + complex * (b.bins.len() + b.columns.len() + b.scratch.len()))
+            .sum();
+        8 * self.symbol.values.len() + complex * self.spectrum.len() + benches
+    }
+
+    /// Convolves; `out` gets what `rows` wants of the result.
+    pub fn apply(&mut self, rows: &impl Rows, out: &mut [f64]) {
+        let [nx, ny] = self.counts;
+        let bins = self.padded[0] / 2 + 1;
+        let apart = STRIP * (ny + 1);
+        let groups = self.benches.len().min(ny);
+        let group = ny.div_ceil(groups);
+        let forward = &self.forward;
+        each(&mut self.benches, split_rows(&mut self.spectrum, apart, ny, group), |bench, index, mut strips| {
+            for (place, row) in (index * group..ny.min((index + 1) * group)).enumerate() {
+                bench.row.fill(0.0);
+                let any = rows.read(row, &mut bench.row[..nx]);
+                if any {
+                    done(forward.process_with_scratch(
+                        &mut bench.row,
+                        &mut bench.bins[..bins],
+                        &mut bench.scratch[..forward.get_scratch_len()],
+                    ));
+                }
+                for (strip, from) in strips.iter_mut().zip(bench.bins.chunks_exact(STRIP)) {
+                    let to = &mut strip[place * STRIP..][..STRIP];
+                    if any { to.copy_from_slice(from) } else { to.fill(ZERO) }
+                }
+            }
+        });
+        let (columns, symbol) =
+            (Columns { forward: &*self.forward_column, backward: &*self.backward_column }, &self.symbol);
+        if ny == 1 && self.padded[1] == 1 {
+            for (x, value) in (0..bins).map(|x| (x, symbol.values[x])) {
+                self.spectrum[x / STRIP * apart + x % STRIP] *= value;
+            }
+        } else {
+            let strips = self.spectrum.chunks_exact_mut(apart);
+            let work: Vec<_> = strips.enumerate().collect();
+            let per = work.len().div_ceil(self.benches.len());
+            let mut work = work.into_iter();
+            let parts: Vec<Vec<_>> = (0..self.benches.len()).map(|_| work.by_ref().take(per).collect()).collect();
+            each(&mut self.benches, parts, |bench, _, strips| {
+                for (strip, data) in strips {
+                    columns.convolve(symbol, strip * STRIP, &mut data[..STRIP * ny], bench);
+                }
+            });
+        }
+        let backward = &self.backward;
+        let mut rest = out;
+        let mut outs = Vec::with_capacity(groups);
+        for index in 0..groups {
+            let ends = [index * group, (index + 1) * group].map(|row| rows.start(row.min(ny)));
+            let (own, others) = rest.split_at_mut(ends[1] - ends[0]);
+            outs.push(own);
+            rest = others;
+        }
+        let strips = split_rows(&mut self.spectrum, apart, ny, group);
+        each(&mut self.benches, strips.into_iter().zip(outs).collect(), |bench, index, (strips, out)| {
+            let first = rows.start((index * group).min(ny));
+            for (place, row) in (index * group..ny.min((index + 1) * group)).enumerate() {
+                let (begin, end) = (rows.start(row) - first, rows.start(row + 1) - first);
+                if begin == end {
+                    continue;
+                }
+                for (strip, to) in strips.iter().zip(bench.bins.chunks_exact_mut(STRIP)) {
+                    to.copy_from_slice(&strip[place * STRIP..][..STRIP]);
+                }
+                // What rounding left of the imaginary parts of bins that are real.
+                bench.bins[0].im = 0.0;
+                if self.padded[0].is_multiple_of(2) {
+                    bench.bins[bins - 1].im = 0.0;
+                }
+                done(backward.process_with_scratch(
+                    &mut bench.bins[..bins],
+                    &mut bench.row,
+                    &mut bench.scratch[..backward.get_scratch_len()],
+                ));
+                rows.write(row, &bench.row[..nx], &mut out[begin..end]);
+            }
+        });
+    }
+}
+
+/// The plans for columns.
+struct Columns<'a> {
+    forward: &'a dyn Fft<f64>,
+    backward: &'a dyn Fft<f64>,
+}
+
+impl Columns<'_> {
+    /// Transforms the columns from `first` on, multiplies and transforms back; `data` is `[row][STRIP]`.
+    fn convolve(&self, symbol: &Quarter, first: usize, data: &mut [Complex<f64>], bench: &mut Bench) {
+        let length = self.forward.len();
+        let (half, bins) = (length / 2 + 1, symbol.values.len() / (length / 2 + 1));
+        let wide = STRIP.min(bins - first);
+        let columns = &mut bench.columns[..wide * length];
+        for (x, column) in columns.chunks_exact_mut(length).enumerate() {
+            let (rows, padding) = column.split_at_mut(data.len() / STRIP);
+            for (to, row) in rows.iter_mut().zip(data.chunks_exact(STRIP)) {
+                *to = row[x];
+            }
+            padding.fill(ZERO);
+        }
+        self.forward.process_with_scratch(columns, &mut bench.scratch[..self.forward.get_inplace_scratch_len()]);
+        for (column, symbol) in columns.chunks_exact_mut(length).zip(symbol.values[first * half..].chunks_exact(half)) {
+            let (low, high) = column.split_at_mut(half);
+            low.iter_mut().zip(symbol).for_each(|(value, symbol)| *value *= symbol);
+            high.iter_mut().rev().zip(&symbol[1..]).for_each(|(value, symbol)| *value *= symbol);
+        }
+        self.backward.process_with_scratch(columns, &mut bench.scratch[..self.backward.get_inplace_scratch_len()]);
+        for (x, column) in columns.chunks_exact(length).enumerate() {
+            for (from, row) in column.iter().zip(data.chunks_exact_mut(STRIP)) {
+                row[x] = *from;
+            }
+        }
+    }
+}
+
+/// The rows of each group in all strips, one list of slices for each group of `group` rows.
+fn split_rows(spectrum: &mut [Complex<f64>], apart: usize, rows: usize, group: usize) -> Vec<Vec<&mut [Complex<f64>]>> {
+    let mut groups: Vec<Vec<_>> = (0..rows.div_ceil(group)).map(|_| Vec::new()).collect();
+    for strip in spectrum.chunks_exact_mut(apart) {
+        for (group, part) in groups.iter_mut().zip(strip[..STRIP * rows].chunks_mut(STRIP * group)) {
+            group.push(part);
+        }
+    }
+    groups
+}
+
+/// Does one piece of work on each bench, at the same time if there are several.
+fn each<T: Send>(benches: &mut [Bench], work: Vec<T>, act: impl Fn(&mut Bench, usize, T) + Sync) {
+    if benches.len() > 1 {
+        let work = benches.par_iter_mut().zip(work).enumerate();
+        work.for_each(|(index, (bench, piece))| act(bench, index, piece));
+    } else if let Some(bench) = benches.first_mut() {
+        work.into_iter().enumerate().for_each(|(index, piece)| act(bench, index, piece));
+    }
+}
+
+/// A transform whose slices have the plan's own lengths cannot fail.
+fn done(result: Result<(), realfft::FftError>) {
+    debug_assert!(result.is_ok(), "{result:?}");
+}

@@ -1,0 +1,60 @@
+//! Real even kernels and their transforms, which are real and even too.
+
+use realfft::RealFftPlanner;
+
+/// A quarter of an even array with periods `periods`: `[x][y]`, x and y from 0 to half the period.
+#[derive(Clone, Debug)]
+pub struct Quarter {
+    /// Cells in x and y after which it repeats.
+    pub periods: [usize; 2],
+    /// `[periods[0] / 2 + 1][periods[1] / 2 + 1]`, y fastest.
+    pub values: Vec<f64>,
+}
+
+impl Quarter {
+    /// From a function of the lags.
+    pub fn from_lags(periods: [usize; 2], mut at: impl FnMut(usize, usize) -> f64) -> Quarter {
+        let mut values = Vec::with_capacity((periods[0] / 2 + 1) * (periods[1] / 2 + 1));
+        for x in 0..=periods[0] / 2 {
+            values.extend((0..=periods[1] / 2).map(|y| at(x, y)));
+        }
+        Quarter { periods, values }
+    }
+
+    /// The value at any lags.
+    pub fn at(&self, x: usize, y: usize) -> f64 {
+        let [nx, ny] = self.periods;
+        let (x, y) = (x % nx, y % ny);
+        self.values[x.min(nx - x) * (ny / 2 + 1) + y.min(ny - y)]
+    }
+
+    /// Its transform, the sum over a period of value times cos(2 pi k x / period).
+    ///
+    /// The inverse transform is the same over the number of cells.
+    pub fn transformed(mut self) -> Quarter {
+        let [half_x, half_y] = self.periods.map(|period| period / 2 + 1);
+        let mut planner = RealFftPlanner::<f64>::new();
+        for (axis, (count, step, lines, apart)) in
+            [(half_y, 1, half_x, half_y), (half_x, half_y, half_y, 1)].into_iter().enumerate()
+        {
+            let period = self.periods[1 - axis];
+            let plan = planner.plan_fft_forward(period);
+            let (mut line, mut out) = (plan.make_input_vec(), plan.make_output_vec());
+            let mut scratch = plan.make_scratch_vec();
+            for first in (0..lines).map(|line| line * apart) {
+                for k in 0..count {
+                    let value = self.values[first + k * step];
+                    line[k] = value;
+                    line[(period - k) % period] = value;
+                }
+                // The lengths are the plan's own.
+                let done = plan.process_with_scratch(&mut line, &mut out, &mut scratch);
+                debug_assert!(done.is_ok());
+                for (k, value) in out.iter().take(count).enumerate() {
+                    self.values[first + k * step] = value.re;
+                }
+            }
+        }
+        self
+    }
+}

@@ -1,0 +1,279 @@
+//! Steps to a tolerance: a stretch of loading is gone through twice, the second time in more steps, until both agree.
+//!
+//! A local error estimate is no measure here. The ring of cells that joins a growing contact within a step is worn wrongly
+//! by a part that falls slowly with the step, and the next steps mend it: the gap has to close. Estimates of single steps do
+//! not see that and were three orders of magnitude above the true error (DESIGN.md, "Why are whole stretches compared?").
+//! Two passes see it, for every law and formula alike, and give the error of the pressure on the way.
+
+use super::going::{Going, Leave};
+use super::rows::{self, Clock};
+use super::run::Coupled;
+use super::segment::Segment;
+use super::stepper::{Accepted, Moment, Reach};
+use super::system::System;
+use crate::integrator::{AdvanceError, norm};
+use crate::record::HistoryRow;
+use crate::scene::Every;
+use crate::solve::ending::stop_reached;
+use crate::solve::{PointError, SolveError};
+
+/// Steps of the first pass over the first stretch.
+const FIRST_STEPS: u64 = 4;
+/// Most steps of a pass.
+const MOST_STEPS: u64 = 1 << 22;
+/// Order at which the difference of two passes is assumed to fall: below the formulas' own, because of moving edges.
+const ORDER: f64 = 0.75;
+/// Part of the steps of a pass that is spread evenly.
+const EVEN: f64 = 0.25;
+/// Steps of a pass from which on its last step is cut.
+const TAILED: u64 = 4;
+/// Where the last step is cut.
+const TAIL: [f64; 3] = [0.6, 0.84, 0.94];
+/// Largest factor between the steps of two passes: a finer pass also knows better where steps are needed.
+const MOST_MORE: u64 = 3;
+/// Passes that may fail in the contact solve before the run gives up.
+const MOST_FAILURES: u32 = 4;
+
+/// What control keeps from stretch to stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Control {
+    /// Steps of the first pass.
+    pub(super) steps: u64,
+    /// Sum of the estimated errors of the wear depth, L2 norms over the cells.
+    pub(super) error: f64,
+    /// Estimated error of the pressure at the end, relative in the L2 norm; `None`: not known.
+    pub(super) pressure_error: Option<f64>,
+}
+
+impl Control {
+    pub(super) fn new() -> Control {
+        Control { steps: FIRST_STEPS, error: 0.0, pressure_error: None }
+    }
+}
+
+/// What a pass came to.
+struct Pass {
+    steps: u64,
+    taken: Vec<Taken>,
+    wear: Vec<f64>,
+    pressure: Vec<f64>,
+}
+
+/// A step of a pass.
+struct Taken {
+    accepted: Accepted,
+    reach: Reach,
+    clock: Clock,
+    row: HistoryRow,
+}
+
+impl<'p> Coupled<'p> {
+    /// Goes through a stretch of a segment to the plan's tolerance.
+    ///
+    /// The finer of two passes stands when its estimated error, difference / (r^p - 1) for r times as many steps, is within
+    /// the tolerance of what the stretch wears.
+    pub(super) fn controlled(
+        &self,
+        system: &mut System<'p>,
+        going: &mut Going<'_>,
+        segment: Segment<'p>,
+        (start, until, number): (f64, f64, i64),
+        cycles_per_time: f64,
+    ) -> Result<i64, Leave> {
+        let begin = going.stepper.moment(system);
+        let mut coarse: Option<Pass> = None;
+        let mut steps = going.control.steps;
+        let mut failures = 0;
+        loop {
+            going.stepper.return_to(system, &begin);
+            let tried =
+                self.pass(system, going, segment, (start, until, number), (steps, coarse.as_ref(), cycles_per_time))?;
+            let fine = match tried {
+                Ok(pass) => pass,
+                Err(source) => {
+                    failures += 1;
+                    if failures > MOST_FAILURES || !may_help(&source) {
+                        going.stepper.return_to(system, &begin);
+                        return Err(failed(&segment, number, start, source).into());
+                    }
+                    steps = steps.saturating_mul(4);
+                    coarse = None;
+                    continue;
+                }
+            };
+            let Some(before) = coarse.take() else {
+                coarse = Some(fine);
+                steps *= 2;
+                continue;
+            };
+            let more = fine.steps as f64 / before.steps as f64;
+            let spread = (more.powf(ORDER) - 1.0).recip();
+            let error = spread * distance(&before.wear, &fine.wear);
+            let pressure_error = spread * distance(&before.pressure, &fine.pressure);
+            let budget = self.budget(going, segment, until - start, &begin, &fine);
+            if error <= budget {
+                going.control.error += error;
+                let size = norm(fine.pressure.iter().copied());
+                going.control.pressure_error = Some(if size > 0.0 { pressure_error / size } else { 0.0 });
+                // Far within the tolerance: the next stretch begins with fewer steps.
+                going.control.steps = if error < budget / 16.0 { before.steps.div_ceil(2) } else { before.steps };
+                going.rejected += before.steps;
+                return self.accept(system, going, segment, (&begin, &fine));
+            }
+            going.rejected += before.steps;
+            let factor = (1.2 * error / budget).ceil().min(MOST_MORE as f64) as u64;
+            steps = fine.steps.saturating_mul(factor.max(2));
+            if steps > MOST_STEPS {
+                going.stepper.return_to(system, &begin);
+                let size = norm(fine.wear.iter().copied());
+                let source = AdvanceError::Tolerance {
+                    time: segment.represented_at(start),
+                    step: (until - start) * segment.scale / fine.steps as f64,
+                    estimate: if size > 0.0 { error / size } else { f64::INFINITY },
+                    tolerance: self.plan.tolerance.unwrap_or_default(),
+                };
+                return Err(failed(&segment, number, start, source).into());
+            }
+            coarse = Some(fine);
+        }
+    }
+
+    /// What the error of a stretch may be: the tolerance of what it wears, or of its share of time in what is worn by then.
+    fn budget(&self, going: &Going<'_>, segment: Segment<'p>, length: f64, begin: &Moment, fine: &Pass) -> f64 {
+        let growth = distance(begin.pressed().0, &fine.wear);
+        let size = norm(fine.wear.iter().copied());
+        let share = if going.total > 0.0 { (length * segment.scale / going.total).min(1.0) } else { 1.0 };
+        // What rounding and the contact tolerance leave of a length is no error of the steps.
+        let noise = 16.0 * f64::EPSILON * size;
+        (self.plan.tolerance.unwrap_or_default() * growth.max(share * size)).max(noise)
+    }
+
+    /// One pass over a stretch; nothing of it is told but that it is going on.
+    #[allow(clippy::type_complexity)] // reason: an error of the pass is for the control, one of the run is not
+    fn pass(
+        &self,
+        system: &mut System<'p>,
+        going: &mut Going<'_>,
+        segment: Segment<'p>,
+        (start, until, number): (f64, f64, i64),
+        (steps, guide, cycles_per_time): (u64, Option<&Pass>, f64),
+    ) -> Result<Result<Pass, AdvanceError<PointError>>, Leave> {
+        let ends = ends(start, until, steps, guide.map_or(&[], |guide| &guide.taken));
+        let mut taken: Vec<Taken> = Vec::new();
+        let before = going.clock;
+        let mut at = start;
+        for target in ends {
+            while at < target {
+                let mut reach = Reach { start: at, until: target, number: number + taken.len() as i64 + 1 };
+                let accepted = match going.stepper.advance(system, segment, reach) {
+                    Ok(accepted) => accepted,
+                    Err(error) => {
+                        going.clock = before;
+                        return Ok(Err(error));
+                    }
+                };
+                at = if accepted.length >= target - at { target } else { at + accepted.length };
+                reach.until = at;
+                going.moved(&segment, accepted.length, at, cycles_per_time);
+                let dt = accepted.length * segment.scale;
+                let row = rows::row(system, &going.stepper.wear, &going.clock, dt, segment.scale);
+                taken.push(Taken { accepted, reach, clock: going.clock, row });
+                going.trial()?;
+            }
+        }
+        going.clock = before;
+        let (wear, pressure) = (going.stepper.wear.clone(), system.pressure.clone());
+        Ok(Ok(Pass { steps, taken, wear, pressure }))
+    }
+
+    /// Tells of the steps of the pass that stands. Only its end was kept; where fields of a step inside are asked for, or
+    /// the run stops at one, it is gone through again: the same steps give the same bits.
+    fn accept(
+        &self,
+        system: &mut System<'p>,
+        going: &mut Going<'_>,
+        segment: Segment<'p>,
+        (begin, fine): (&Moment, &Pass),
+    ) -> Result<i64, Leave> {
+        let stops = fine.taken.iter().any(|taken| stop_reached(&self.plan.stop, &taken.row).is_some());
+        let again = stops || matches!(self.plan.output.every, Every::Steps(_)) && !self.plan.output.fields.is_empty();
+        if again {
+            going.stepper.return_to(system, begin);
+        }
+        let last = fine.taken.len().saturating_sub(1);
+        for (k, taken) in fine.taken.iter().enumerate() {
+            if again {
+                let repeated = going.stepper.advance(system, segment, taken.reach);
+                repeated.map_err(|source| failed(&segment, taken.reach.number - 1, taken.reach.start, source))?;
+            }
+            going.clock = taken.clock;
+            going.tell(system, &segment, &taken.accepted, taken.row, k == last)?;
+        }
+        Ok(fine.taken.last().map_or(0, |taken| taken.reach.number))
+    }
+}
+
+/// Ends of the steps of a pass: equal ones, or such that the wear rate changes alike over each, as an earlier pass saw it
+/// change.
+///
+/// An error of local order 2 is proportional to the change times the step, so steps are as dense as its square root; a part
+/// of them is spread evenly, because a coarse pass does not see everything.
+fn ends(start: f64, until: f64, steps: u64, seen: &[Taken]) -> Vec<f64> {
+    let known: Vec<f64> = seen.iter().map(|taken| taken.accepted.change.max(0.0).sqrt()).collect();
+    let total: f64 = known.iter().filter(|weight| weight.is_finite()).sum();
+    let even = |k: u64| start + (until - start) * (k as f64 / steps as f64);
+    let mut ends: Vec<f64> = (1..steps).map(even).collect();
+    if total > 0.0 && total.is_finite() {
+        let length = until - start;
+        let weights: Vec<f64> = seen
+            .iter()
+            .zip(&known)
+            .enumerate()
+            .map(|(k, (taken, weight))| {
+                // The first step of some formulas does not know the rate that it starts from.
+                let weight = if weight.is_nan() { known.get(k + 1).copied().unwrap_or(0.0) } else { *weight };
+                let part = (taken.reach.until - taken.reach.start) / length;
+                (1.0 - EVEN) * weight / total + EVEN * part
+            })
+            .collect();
+        let sum: f64 = weights.iter().sum();
+        let (mut piece, mut before) = (0, 0.0);
+        for (k, end) in ends.iter_mut().enumerate() {
+            let wanted = sum * ((k + 1) as f64 / steps as f64);
+            while piece + 1 < weights.len() && before + weights[piece] < wanted {
+                before += weights[piece];
+                piece += 1;
+            }
+            let reach = seen[piece].reach;
+            let part = ((wanted - before) / weights[piece]).clamp(0.0, 1.0);
+            *end = reach.start + part * (reach.until - reach.start);
+        }
+    }
+    if steps >= TAILED {
+        // What a step leaves wrong at the edge of the contact fades in the next: the last ones are short, so that the
+        // pressure at the end is as good as the wear.
+        let last = ends.last().copied().unwrap_or(start);
+        ends.extend(TAIL.map(|part| last + part * (until - last)));
+    }
+    ends.push(until);
+    ends.dedup_by(|later, earlier| *later <= *earlier);
+    ends
+}
+
+/// Whether shorter steps may help.
+fn may_help(error: &AdvanceError<PointError>) -> bool {
+    matches!(error, AdvanceError::Evaluate(PointError::Contact(_) | PointError::Newton { .. }))
+}
+
+fn failed(segment: &Segment<'_>, number: i64, at: f64, source: AdvanceError<PointError>) -> SolveError {
+    SolveError::Advance {
+        load_step: segment.number,
+        substep: number + 1,
+        time: segment.represented_at(at),
+        source: Box::new(source),
+    }
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    norm(a.iter().zip(b).map(|(a, b)| a - b))
+}

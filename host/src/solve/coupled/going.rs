@@ -1,0 +1,127 @@
+//! What changes from step to step of a run, and what is told of it.
+
+use super::controlled::Control;
+use super::rows::{self, Clock};
+use super::segment::Segment;
+use super::stepper::{Accepted, Stepper};
+use super::system::System;
+use crate::contact::Control as Pressing;
+use crate::record::{self, Event, HistoryRow, Observer, Wish};
+use crate::scene::Every;
+use crate::solve::SolveError;
+use crate::solve::ending::stop_reached;
+
+/// What changes from step to step.
+pub(super) struct Going<'o> {
+    pub(super) stepper: Stepper,
+    pub(super) clock: Clock,
+    pub(super) history: record::History,
+    pub(super) steps: u64,
+    pub(super) rejected: u64,
+    pub(super) replaced: u64,
+    pub(super) control: Control,
+    pub(super) longest: f64,
+    pub(super) warnings: Vec<String>,
+    pub(super) observer: &'o mut (dyn Observer + Send),
+    pub(super) units: record::Units,
+    pub(super) total: f64,
+    pub(super) start_pressure: Vec<f64>,
+    pub(super) snapshot_told: bool,
+    /// What presses at the end of the last step.
+    pub(super) pressed: Option<Pressing>,
+}
+
+/// Why the loop ends early.
+pub(super) enum Leave {
+    Failed(SolveError),
+    Stopped(String),
+    Interrupted,
+}
+
+impl From<SolveError> for Leave {
+    fn from(error: SolveError) -> Leave {
+        Leave::Failed(error)
+    }
+}
+
+impl Going<'_> {
+    pub(super) fn warn(&mut self, warning: String) {
+        if !self.warnings.contains(&warning) {
+            self.observer.observe(Event::Warning(&warning));
+            self.warnings.push(warning);
+        }
+    }
+
+    /// Moves the clocks to the end of a step.
+    pub(super) fn moved(&mut self, segment: &Segment<'_>, length: f64, at: f64, cycles_per_time: f64) {
+        self.clock.simulated = at;
+        self.clock.represented = segment.represented_at(at);
+        self.clock.cycles += length * cycles_per_time;
+        self.clock.temperature = segment.at(at).temperature;
+    }
+
+    /// Part of the represented time that is done.
+    fn done(&self) -> f64 {
+        if self.total > 0.0 { self.clock.represented / self.total } else { 1.0 }
+    }
+
+    /// Tells of a step that may not stand, and hears whether to go on.
+    pub(super) fn trial(&mut self) -> Result<(), Leave> {
+        let event = Event::Trial { time: self.clock.represented, done: self.done() };
+        if self.observer.observe(event) == Wish::Stop { Err(Leave::Interrupted) } else { Ok(()) }
+    }
+
+    /// Tells of a step, and hears whether to go on.
+    pub(super) fn tell(
+        &mut self,
+        system: &mut System<'_>,
+        segment: &Segment<'_>,
+        accepted: &Accepted,
+        row: HistoryRow,
+        at_cut: bool,
+    ) -> Result<(), Leave> {
+        self.steps += 1;
+        self.rejected += accepted.rejected;
+        self.replaced += u64::from(accepted.replaced);
+        self.longest = self.longest.max(row.dt);
+        self.pressed = Some(segment.at(self.clock.simulated).control);
+        for warning in std::mem::take(&mut system.law.warnings) {
+            self.warn(warning);
+        }
+        if let Some(warning) = rows::check_rim(system, segment, &self.clock)? {
+            let kind = warning.split(',').next().unwrap_or_default().to_owned();
+            if !self.warnings.iter().any(|known| known.starts_with(&kind)) {
+                self.warn(warning);
+            }
+        }
+        let done = self.done();
+        let wish = self.observer.observe(Event::Step { row: &row, steps: self.steps, done });
+        self.history.rows.push(row);
+        let asked = match &system.plan.output.every {
+            Every::End => false,
+            Every::Steps(every) => self.steps.is_multiple_of(*every),
+            Every::Times(times) => {
+                let near = 1e-9 * row.dt.max(self.clock.represented.abs());
+                at_cut && times.iter().any(|time| (time - self.clock.represented).abs() <= near)
+            }
+        };
+        self.snapshot_told = asked && !system.plan.output.fields.is_empty();
+        if self.snapshot_told {
+            let snapshot = rows::snapshot(system, &self.stepper, &self.clock, self.steps, &self.units);
+            self.observer.observe(Event::Snapshot(&snapshot));
+        }
+        match stop_reached(&system.plan.stop, &row) {
+            Some(reason) => Err(Leave::Stopped(reason)),
+            None if wish == Wish::Stop => Err(Leave::Interrupted),
+            None => Ok(()),
+        }
+    }
+
+    /// What is left to tell when a run ends, for whatever reason.
+    pub(super) fn finish(&mut self, system: &mut System<'_>) {
+        if self.steps > 0 && !system.plan.output.fields.is_empty() && !self.snapshot_told {
+            let snapshot = rows::snapshot(system, &self.stepper, &self.clock, self.steps, &self.units);
+            self.observer.observe(Event::Snapshot(&snapshot));
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! The run on a contact that answers back: wear changes the gap, the gap changes the pressure, the pressure wears.
+//!
+//! [`Coupled`] goes through the loading; a [`System`](system::System) solves the contact with the law in it at one moment,
+//! and the formulas of [`crate::integrator`] make steps of such moments. Step control, the rule that keeps second-order
+//! steps from wearing a gap open, and what is told on the way are here; solving a contact for given gaps is not.
+
+mod averaged;
+mod controlled;
+mod going;
+mod law_points;
+mod newton;
+mod prepared;
+mod proportional;
+mod reference;
+mod rows;
+mod run;
+mod segment;
+mod stepper;
+mod system;
+
+pub(super) use run::Coupled;
