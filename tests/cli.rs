@@ -3,7 +3,7 @@
 #[path = "support/program.rs"]
 mod program;
 
-use program::{Ended, LAW, REFUSING, fails, folder, json, run, wearlaw, write};
+use program::{LAW, REFUSING, ended, fails, folder, json, run, wearlaw, write};
 use serde_json::Value;
 
 const DECK: &str = "ET,1,185\nTB,WEAR,7,,,ARCD\nTBDATA,1,1e-4,1e10,1,1\n";
@@ -172,9 +172,46 @@ fn an_interrupted_build_ends_with_130_and_leaves_nothing() {
     std::fs::set_permissions(&compiler, std::fs::Permissions::from_mode(0o755)).expect("permissions");
     let before = std::fs::read_dir(here.path()).unwrap().count();
     let mut command = wearlaw(here.path(), &["build", "half.c", "--json"]);
-    let ended = Ended::from(command.env("CC", &compiler).output().expect("the program starts"));
+    let ended = ended(command.env("CC", &compiler).output().expect("the program starts"), &["build"]);
     assert_eq!(ended.code, 130, "{}", ended.stderr);
     let document = json(&ended.stdout);
     assert_eq!((&document["exit_code"], &document["error"]["kind"]), (&130.into(), &"interrupted".into()));
     assert_eq!(std::fs::read_dir(here.path()).unwrap().count(), before);
+}
+
+#[test]
+fn what_a_law_prints_never_reaches_the_document_of_json() {
+    let here = folder();
+    let talks = "#include <stdio.h>\n#include <unistd.h>\n#include <stdlib.h>\n\
+        static void talk(const char *where) { printf(\"said %s\\n\", where); (void)!write(1, \"at once\\n\", 8); }\n\
+        __attribute__((constructor)) static void open_up(void) { talk(\"when it was opened\"); }\n";
+    let law = LAW.replace("WL_POINT {", "WL_POINT {\n    talk(\"when it was asked\");");
+    write(here.path(), "talks.c", &format!("{talks}{law}"));
+    let built = run(here.path(), &["build", "talks.c", "-o", "talks.so", "--json"]);
+    assert_eq!(built.code, 0, "{}", built.stderr);
+    assert!(json(&built.stdout).is_object() && built.stderr.contains("at once"), "{}", built.stderr);
+    write(here.path(), "history.csv", "time,point,pressure,velocity\n0,0,1e8,0.1\n1,0,1e8,0.1\n");
+    write(
+        here.path(),
+        "scene.toml",
+        "[law]\nuse = \"./talks.so\"\nconstants = { k = 1e-15 }\n[contact]\nmodel = \"prescribed\"\nhistory = \"history.csv\"\n",
+    );
+    for words in [
+        &["run", "scene.toml", "--json"][..],
+        &["run", "scene.toml", "--json", "--isolate"],
+        &["plan", "scene.toml", "--json"],
+        &["inspect", "talks.so", "--json"],
+    ] {
+        let ended = run(here.path(), words);
+        assert_eq!(ended.code, 0, "{words:?}: {}", ended.stderr);
+        assert!(json(&ended.stdout).is_object(), "{words:?}");
+        assert!(ended.stderr.contains("said when it was opened") && ended.stderr.contains("at once"), "{words:?}");
+        if words[0] == "run" {
+            assert!(ended.stderr.contains("said when it was asked"), "{words:?}: {}", ended.stderr);
+        }
+    }
+    // Errors are documents too.
+    let ended = run(here.path(), &["run", "scene.toml", "--json", "--set", "law.constants=[-1]"]);
+    assert_eq!((ended.code, &json(&ended.stdout)["exit_code"]), (2, &2.into()));
+    assert!(ended.stderr.contains("at once"));
 }

@@ -115,8 +115,8 @@ fn a_column_that_nobody_reads_costs_nothing() {
     assert_eq!(planned_read - planned, 8.0 * points as f64);
     assert!((unread - bare).abs() < MEGABYTE, "{unread} against {bare}");
     assert!(read - bare >= 7.0 * MEGABYTE, "{read} against {bare}");
-    // Stresses, normals and shear that nobody reads are as good as not there.
-    let rest = ["velocity", "nx", "ny", "nz", "sxx", "syy", "szz", "sxy", "syz", "sxz", "shear"];
+    // Stresses, normals, shear and friction that nobody reads are as good as not there.
+    let rest = ["velocity", "nx", "ny", "nz", "sxx", "syy", "szz", "sxy", "syz", "sxz", "shear", "friction"];
     let (many, planned_many) = with("many", &rest, PLAIN);
     assert_eq!(planned, planned_many);
     assert!((many - bare).abs() < MEGABYTE, "{many} against {bare}");

@@ -8,9 +8,12 @@ fn the_key_that_would_give_a_missing_field_is_named() {
     let room = Room::new();
     for (field, telling) in [
         ("WL_FIELD_TEMPERATURE", &["reads `temperature`", "column `temperature`", "`step.temperature`"] as &[&str]),
-        ("WL_FIELD_FRICTION_STRESS", &["reads `friction_stress`", "`contact.friction`", "column `shear`"]),
+        (
+            "WL_FIELD_FRICTION_STRESS",
+            &["reads `friction_stress`", "`contact.friction`", "column `friction` or `shear`"],
+        ),
         ("WL_FIELD_FRICTION_WORK", &["reads `friction_work`", "`contact.friction`"]),
-        ("WL_FIELD_FRICTION_COEFFICIENT", &["reads `friction_coefficient`", "`contact.friction`"]),
+        ("WL_FIELD_FRICTION_COEFFICIENT", &["reads `friction_coefficient`", "`contact.friction`", "column `friction`"]),
         ("WL_FIELD_COORDINATES", &["reads `coordinates`", "columns `x`, `y`, `z`"]),
         ("WL_FIELD_AREA", &["reads `area`", "column `area`"]),
         ("WL_FIELD_NODAL_TRACTION", &["reads `nodal_traction`", "`sxx` to `sxz`"]),

@@ -133,6 +133,23 @@ fn tables_have_to_form_a_grid() {
 }
 
 #[test]
+fn what_the_history_gives_is_given_once() {
+    let room = Room::new();
+    room.write("twice.csv", "time,point,pressure,velocity,temperature,friction\n0,7,1,1,300,0.1\n1,7,1,1,300,0.2\n");
+    let history = "contact.history=\"twice.csv\"";
+    for (key, value, column) in [
+        ("contact.friction", "contact.friction=0.3", "friction"),
+        ("step.0.friction", "step=[{ duration = 1, friction = 0.3 }]", "friction"),
+        ("step.0.temperature", "step=[{ duration = 1, temperature = 300 }]", "temperature"),
+        ("step.0.velocity", "step=[{ duration = 1, velocity = 1 }]", "velocity"),
+    ] {
+        let telling = format!("`{key}` and a column `{column}` in `contact.history`, expected one of them");
+        room.refused(&["plan", "scene.toml", "--set", history, "--set", value], &[&telling]);
+    }
+    assert_eq!(room.run(&["plan", "scene.toml", "--set", history]).code, 0);
+}
+
+#[test]
 fn results_go_only_where_they_may() {
     let room = Room::new();
     std::fs::create_dir(room.file("other")).expect("a folder");

@@ -4,9 +4,14 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use serde_json::Value;
+
+#[path = "started.rs"]
+mod started;
+
+pub use started::{Ended, ended};
 
 /// A scene of the Archard law over [`HISTORY`].
 pub const SCENE: &str = r#"title = "two points"
@@ -20,16 +25,6 @@ history = "history.csv"
 
 /// Two points, numbered 7 and 8, from time 0 to 1.
 pub const HISTORY: &str = "time,point,pressure,velocity\n0,7,1,0.2\n0,8,2,0.2\n1,7,3,0.2\n1,8,4,0.2\n";
-
-/// How the program ended.
-pub struct Ended {
-    /// Its exit code.
-    pub code: i32,
-    /// Standard output.
-    pub stdout: String,
-    /// Standard error.
-    pub stderr: String,
-}
 
 /// A folder with a scene and its history; gone with this value.
 pub struct Room(tempfile::TempDir);
@@ -55,12 +50,8 @@ impl Room {
 
     /// The program in this folder; what the code of a law notes goes to the file `notes`.
     pub fn command(&self, words: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_wearlaw"));
-        command.current_dir(self.0.path()).args(words).stdin(Stdio::null());
-        command.env("WEARLAW_TEST_NOTES", self.file("notes"));
-        for name in ["CC", "CXX", "FC", "CFLAGS", "CXXFLAGS", "FFLAGS", "NO_COLOR", "RUST_BACKTRACE"] {
-            command.env_remove(name);
-        }
+        let mut command = started::program(words);
+        command.current_dir(self.0.path()).env("WEARLAW_TEST_NOTES", self.file("notes"));
         command
     }
 
@@ -129,13 +120,6 @@ fn walk(base: &Path, folder: &Path, found: &mut BTreeSet<PathBuf>) {
             walk(base, &path, found);
         }
     }
-}
-
-/// What a process came to; a signal that ends the program itself is a failure of every test.
-pub fn ended(output: std::process::Output, words: &[&str]) -> Ended {
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("output is UTF-8");
-    let code = output.status.code().unwrap_or_else(|| panic!("{words:?} ended by {:?}", output.status));
-    Ended { code, stdout: text(output.stdout), stderr: text(output.stderr) }
 }
 
 /// An error is one sentence in one line; what may follow is the underlined source.

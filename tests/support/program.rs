@@ -2,38 +2,25 @@
 #![allow(dead_code)] // reason: each test file uses a part of it.
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
 use serde_json::Value;
 
-/// The program in a folder, with an environment that no user's settings reach.
+#[path = "started.rs"]
+mod started;
+
+pub use started::{Ended, ended};
+
+/// The program in a folder.
 pub fn wearlaw(folder: &Path, words: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wearlaw"));
-    command.current_dir(folder).args(words).stdin(std::process::Stdio::null());
-    for name in ["CC", "CXX", "FC", "CFLAGS", "CXXFLAGS", "FFLAGS", "NO_COLOR", "RUST_BACKTRACE"] {
-        command.env_remove(name);
-    }
+    let mut command = started::program(words);
+    command.current_dir(folder);
     command
-}
-
-/// How a command ended.
-pub struct Ended {
-    pub code: i32,
-    pub stdout: String,
-    pub stderr: String,
-}
-
-impl From<Output> for Ended {
-    fn from(output: Output) -> Self {
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("output is UTF-8");
-        let code = output.status.code().expect("no signal ended the program");
-        Self { code, stdout: text(output.stdout), stderr: text(output.stderr) }
-    }
 }
 
 /// Runs a command to its end.
 pub fn run(folder: &Path, words: &[&str]) -> Ended {
-    wearlaw(folder, words).output().expect("the program starts").into()
+    ended(wearlaw(folder, words).output().expect("the program starts"), words)
 }
 
 /// Runs a command that has to fail: nothing on standard output, and the same error as one JSON document with `--json`.

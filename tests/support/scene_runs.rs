@@ -4,28 +4,17 @@
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::Value;
 
-/// How a call of the program ended.
-pub struct Ended {
-    /// Exit code.
-    pub code: i32,
-    /// Standard output.
-    pub stdout: String,
-    /// Standard error.
-    pub stderr: String,
-}
+#[path = "started.rs"]
+mod started;
+
+pub use started::Ended;
 
 /// Calls the program.
-pub fn wearlaw<W: AsRef<OsStr>>(words: &[W]) -> Ended {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wearlaw"));
-    command.args(words).stdin(std::process::Stdio::null()).env_remove("RUST_BACKTRACE");
-    let output = command.output().expect("the program starts");
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("output is UTF-8");
-    let code = output.status.code().expect("no signal ended the program");
-    Ended { code, stdout: text(output.stdout), stderr: text(output.stderr) }
+pub fn wearlaw<W: AsRef<OsStr> + std::fmt::Debug>(words: &[W]) -> Ended {
+    started::ended(started::program(words).output().expect("the program starts"), words)
 }
 
 /// A finished run.

@@ -108,6 +108,12 @@ fn friction_work_is_the_path_integral_of_the_shear() {
         let case = Case::history("constants = [1e-13]", csv, &format!("[integrator]\n{accuracy}\n"));
         near(case.solve(&memory::<Work>(None)).record.wear[0], 1e-13 * 2.5e5 * 0.2, 1e-5);
     }
+    // A coefficient for each point that rises in time: |v| p mu of 0.1 * 1e6 * the mean of mu.
+    let csv = "time,point,pressure,velocity,friction\n0,0,1e6,0.1,0.2\n0,1,1e6,0.1,0\n2,0,1e6,0.1,0.4\n2,1,1e6,0.1,0\n";
+    let case = Case::history("constants = [1e-13]", csv, "[integrator]\ntolerance = 1e-12\n");
+    let wear = case.solve(&memory::<Work>(None)).record.wear;
+    near(wear[0], 1e-13 * 1e5 * 0.3 * 2.0, 1e-12);
+    assert_eq!(wear[1], 0.0);
     // A ramp of the coefficient.
     let ramp = "[[step]]\nduration = 1\npressure = 1e6\nvelocity = 0.1\nfriction = 0.4\nramp = [\"friction\"]\n";
     let wear = Case::steps("constants = [1e-13]", ramp).solve(&memory::<Work>(None)).record.wear[0];

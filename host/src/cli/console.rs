@@ -4,6 +4,7 @@ use std::io::{ErrorKind, IsTerminal, Write};
 
 use serde::Serialize;
 
+use super::standard_output;
 use crate::error::{Error, printable};
 use crate::exit_code::ExitCode;
 
@@ -37,8 +38,7 @@ impl Console {
 
     /// Prints a result; a reader that has seen enough (`| head`) is no error.
     pub(super) fn result(&self, text: &str) -> Result<(), Error> {
-        let mut out = std::io::stdout().lock();
-        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        match standard_output::write(text.as_bytes()) {
             Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::Stdout(error)),
             _ => Ok(()),
         }

@@ -17,6 +17,7 @@ mod opening;
 mod plan;
 mod progress;
 mod run;
+mod standard_output;
 mod summary;
 mod table;
 mod unit_text;
@@ -46,6 +47,9 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) => return args::refuse(&error, &arguments),
     };
     let console = Console::new(parsed.how.json, parsed.how.quiet);
+    if console.json {
+        standard_output::reserve();
+    }
     match guard::guarded(|| dispatch(&console, parsed.command)) {
         Ok(code) => code,
         Err(error) => console.error(&error),

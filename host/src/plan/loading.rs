@@ -82,6 +82,10 @@ pub(super) fn blocks(scene: &Scene, header: Option<&Header>) -> Result<(Vec<Bloc
         return Err(scene.error_at("cycle.0", PlanProblem::StepsAndCycles));
     }
     if let Some(header) = header {
+        if scene.contact.friction.is_some() && header.has_column(Column::Friction) {
+            let problem = PlanProblem::GivenTwice { key: "contact.friction".to_owned(), column: "friction" };
+            return Err(scene.error_at("contact.friction", problem));
+        }
         for (index, step) in scene.steps.iter().enumerate() {
             given_once(scene, header, &format!("step.{index}"), step)?;
         }
@@ -119,7 +123,9 @@ fn given_once(scene: &Scene, header: &Header, base: &str, step: &Step) -> Result
         Sliding::Stroke { .. } => "stroke",
     });
     let warm = header.has_column(Column::Temperature).then_some("temperature");
-    for (key, column) in [(sliding, motion), (step.temperature.map(|_| "temperature"), warm)] {
+    let rubbed = header.has_column(Column::Friction).then_some("friction");
+    let (temperature, friction) = (step.temperature.map(|_| "temperature"), step.friction.map(|_| "friction"));
+    for (key, column) in [(sliding, motion), (temperature, warm), (friction, rubbed)] {
         if let (Some(key), Some(column)) = (key, column) {
             let key = format!("{base}.{key}");
             return Err(scene.error_at(&key, PlanProblem::GivenTwice { key: key.clone(), column }));

@@ -50,7 +50,9 @@ impl Setting<'_> {
     }
 
     fn gives_friction(&self) -> bool {
-        self.scene.contact.friction.is_some() || self.every_step(|step| step.friction.is_some())
+        self.has(Column::Friction)
+            || self.scene.contact.friction.is_some()
+            || self.every_step(|step| step.friction.is_some())
     }
 
     fn gives_stress(&self) -> bool {
@@ -78,9 +80,12 @@ impl Setting<'_> {
             },
             Field::FrictionStress | Field::FrictionWork => (
                 self.moves() && (self.has(Column::Shear) || self.gives_friction()),
-                "give `contact.friction`, or a column `shear` in `contact.history`, and a motion",
+                "give `contact.friction`, or a column `friction` or `shear` in `contact.history`, and a motion",
             ),
-            Field::FrictionCoefficient => (self.gives_friction(), "give `contact.friction`"),
+            Field::FrictionCoefficient => match history {
+                true => (self.gives_friction(), "give `contact.friction`, or a column `friction` in `contact.history`"),
+                false => (self.gives_friction(), "give `contact.friction`"),
+            },
             Field::NodalTraction => {
                 (self.gives_stress(), "give columns `sxx` to `sxz` (nodal stresses) in `contact.history`")
             }
@@ -238,6 +243,11 @@ impl Setting<'_> {
         let needed = [Field::FrictionStress, Field::FrictionWork].iter().any(|field| fields.contains(*field));
         if needed && self.has(Column::Shear) {
             columns.add(Column::Shear);
+        }
+        // A shear stress that is given is not the product of a coefficient.
+        let by_coefficient = fields.contains(Field::FrictionCoefficient) || needed && !self.has(Column::Shear);
+        if by_coefficient && self.has(Column::Friction) {
+            columns.add(Column::Friction);
         }
         let frictional = [Field::FrictionStress, Field::FrictionWork, Field::FrictionCoefficient];
         if !frictional.iter().any(|field| self.law.fields().contains(*field)) {

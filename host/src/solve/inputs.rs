@@ -51,7 +51,7 @@ impl<'h> Drive<'h> {
             },
             temperature: or(column(Column::Temperature), step(placed.temperature)),
             shear: column(Column::Shear),
-            friction: or(step(placed.friction), step(constant(plan.friction))),
+            friction: or(column(Column::Friction), or(step(placed.friction), step(constant(plan.friction)))),
             normal: Column::NORMAL.map(column),
             stress: Column::STRESS.map(column),
             area: column(Column::Area),

@@ -19,6 +19,8 @@ pub enum Column {
     Temperature,
     /// `shear`: friction stress.
     Shear,
+    /// `friction`: friction stress over pressure where the point slides, at least zero.
+    Friction,
     /// `nx`: first component of the outward normal of the wearing body.
     NormalX,
     /// `ny`: second component; zero where the file leaves it out (2-D).
@@ -51,7 +53,7 @@ pub enum Column {
 
 impl Column {
     /// The columns whose names are fixed, in the order of the documentation.
-    pub const NAMED: [(Column, &'static str); 21] = [
+    pub const NAMED: [(Column, &'static str); 22] = [
         (Column::Pressure, "pressure"),
         (Column::Velocity, "velocity"),
         (Column::Slip, "slip"),
@@ -60,6 +62,7 @@ impl Column {
         (Column::SlipZ, "slip_z"),
         (Column::Temperature, "temperature"),
         (Column::Shear, "shear"),
+        (Column::Friction, "friction"),
         (Column::NormalX, "nx"),
         (Column::NormalY, "ny"),
         (Column::NormalZ, "nz"),
@@ -95,6 +98,15 @@ impl Column {
     pub fn fixed_name(self) -> Option<&'static str> {
         let hit = Self::NAMED.iter().find(|(column, _)| *column == self);
         hit.map(|(_, name)| *name)
+    }
+
+    /// What is wrong with a value of this column that is a number, if something is: what was expected.
+    pub(super) fn refusal(self, value: f64) -> Option<&'static str> {
+        match self {
+            Column::Area if value <= 0.0 => Some("more than 0"),
+            Column::Friction if value < 0.0 => Some("at least 0"),
+            _ => None,
+        }
     }
 
     fn bit(self) -> u32 {

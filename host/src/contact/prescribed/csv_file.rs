@@ -105,7 +105,8 @@ pub(super) fn read(header: &Header, needs: &Needs) -> Result<History, HistoryErr
         }
     }
     let source_of = |column| sources.iter().position(|source| source.column == column);
-    let area = source_of(Column::Area);
+    let bounded: Vec<(usize, Column)> =
+        [Column::Area, Column::Friction].into_iter().filter_map(|c| Some((source_of(c)?, c))).collect();
     let normal: Vec<usize> = Column::NORMAL.iter().filter_map(|c| source_of(*c)).collect();
     let whole_normal = needs.has(Column::NormalX) && needs.has(Column::NormalZ);
 
@@ -147,8 +148,13 @@ pub(super) fn read(header: &Header, needs: &Needs) -> Result<History, HistoryErr
         for (value, source) in row_values.iter_mut().zip(&sources) {
             *value = number(source.field)?;
         }
-        if let Some(area) = area.map(|at| row_values[at]).filter(|area| *area <= 0.0) {
-            return Err(HistoryError::Area { path: path.into(), line: line(), point: id, time, area });
+        for (at, column) in &bounded {
+            let value = row_values[*at];
+            if let Some(expected) = column.refusal(value) {
+                let column = column.fixed_name().unwrap_or("");
+                let (path, point) = (path.into(), id);
+                return Err(HistoryError::Value { path, line: line(), column, value, point, time, expected });
+            }
         }
         if whole_normal && normal.iter().all(|at| row_values[*at] == 0.0) {
             return Err(HistoryError::ZeroNormal { path: path.into(), line: line(), point: id, time });

@@ -103,9 +103,9 @@ pub enum HistoryError {
     /// The same id twice in the `point` array of a grid.
     #[error("{}: array `point` holds the id {point} twice", path.display())]
     RepeatedId { path: PathBuf, point: i64 },
-    /// An area of zero or less.
-    #[error("{}{}: area {area} of point {point} at time {time}, expected more than 0", path.display(), at(*line))]
-    Area { path: PathBuf, line: u64, point: i64, time: f64, area: f64 },
+    /// An area of zero or less, or a coefficient of friction below zero.
+    #[error("{}{}: {column} {value} of point {point} at time {time}, expected {expected}", path.display(), at(*line))]
+    Value { path: PathBuf, line: u64, column: &'static str, value: f64, point: i64, time: f64, expected: &'static str },
     /// A normal of length zero.
     #[error("{}{}: normal of length 0 at point {point}, time {time}", path.display(), at(*line))]
     ZeroNormal { path: PathBuf, line: u64, point: i64, time: f64 },

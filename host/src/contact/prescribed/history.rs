@@ -153,34 +153,49 @@ impl History {
         8 * (self.times.len() + ids) + columns
     }
 
-    /// Areas are greater than zero and normals are not zero.
-    fn check_signs(&self) -> Result<(), HistoryError> {
-        let distinct = |views: &[ColumnView<'_>]| {
-            let rows = if views.iter().all(ColumnView::is_constant_in_time) { 1 } else { self.times.len() };
-            let points = if views.iter().all(ColumnView::is_uniform) { 1 } else { self.points() };
-            (rows, points)
-        };
-        if let Some(area) = self.column(Column::Area) {
-            let (rows, points) = distinct(&[area]);
-            for k in 0..rows {
-                let bad = match area.row(k) {
-                    RowView::Uniform(value) => (value <= 0.0).then_some(0),
-                    RowView::PerPoint(values) => values[..points].iter().position(|a| *a <= 0.0),
-                };
-                if let Some(i) = bad {
-                    return Err(HistoryError::Area {
-                        path: self.path.clone(),
-                        line: 0,
-                        point: self.point_ids.get(i),
-                        time: self.times[k],
-                        area: area.value(k, i),
-                    });
+    /// Rows and points that can differ in one of the columns.
+    fn distinct(&self, views: &[ColumnView<'_>]) -> (usize, usize) {
+        let rows = if views.iter().all(ColumnView::is_constant_in_time) { 1 } else { self.times.len() };
+        let points = if views.iter().all(ColumnView::is_uniform) { 1 } else { self.points() };
+        (rows, points)
+    }
+
+    fn check_values(&self, column: Column, name: &'static str, view: ColumnView<'_>) -> Result<(), HistoryError> {
+        let (rows, points) = self.distinct(&[view]);
+        for k in 0..rows {
+            let bad = match view.row(k) {
+                RowView::Uniform(value) => column.refusal(value).map(|expected| (0, expected)),
+                RowView::PerPoint(values) => {
+                    let refusals = values[..points].iter().map(|value| column.refusal(*value));
+                    refusals.enumerate().find_map(|(i, refusal)| refusal.map(|expected| (i, expected)))
                 }
+            };
+            if let Some((i, expected)) = bad {
+                let (point, time, value) = (self.point_ids.get(i), self.times[k], view.value(k, i));
+                return Err(HistoryError::Value {
+                    path: self.path.clone(),
+                    line: 0,
+                    column: name,
+                    value,
+                    point,
+                    time,
+                    expected,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Areas are greater than zero, coefficients of friction not below it, and normals not zero.
+    fn check_signs(&self) -> Result<(), HistoryError> {
+        for (column, name) in Column::NAMED {
+            if let Some(view) = self.column(column) {
+                self.check_values(column, name, view)?;
             }
         }
         let normal: Vec<ColumnView<'_>> = Column::NORMAL.iter().filter_map(|column| self.column(*column)).collect();
         if normal.len() == 3 {
-            let (rows, points) = distinct(&normal);
+            let (rows, points) = self.distinct(&normal);
             for k in 0..rows {
                 let zero = (0..points).find(|i| normal.iter().all(|c| c.value(k, *i) == 0.0));
                 if let Some(i) = zero {

@@ -152,7 +152,10 @@ fn grid_fault(name: &'static str, array: Vec<u8>) -> String {
     let mut arrays = grid_arrays();
     arrays.retain(|a| a.0 != name);
     arrays.push((name, array));
-    let needs = Needs::of(&[Column::Pressure, Column::Area]);
+    let mut needs = Needs::of(&[Column::Pressure, Column::Area]);
+    if name == "friction" {
+        needs.add(Column::Friction);
+    }
     fault("h.npz", &archive(Stored, 64, &arrays), &needs)
 }
 
@@ -187,6 +190,7 @@ fn every_fault_of_an_array_is_told() {
         ("point", doubles("(3,)", &[0.0, 1.5, 2.0]), "h.npz: array `point`, element 1: found 1.5, expected an integer"),
         ("point", doubles("(3,)", &[0.0, 1.0, 0.0]), "h.npz: array `point` holds the id 0 twice"),
         ("area", doubles("(3,)", &[1.0, 1.0, -2.0]), "h.npz: area -2 of point 2 at time 0, expected more than 0"),
+        ("friction", doubles("()", &[-0.5]), "h.npz: friction -0.5 of point 0 at time 0, expected at least 0"),
         ("presure", doubles("()", &[1.0]), "h.npz: unknown column `presure`; did you mean `pressure`?"),
     ];
     for (name, array, expected) in cases {

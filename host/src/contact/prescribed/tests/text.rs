@@ -246,6 +246,11 @@ fn every_fault_of_the_rows_is_told() {
     }
     let area = fault("h.csv", b"time,point,pressure,area\n0,5,1,0\n", &Needs::of(&[Column::Area]));
     assert_eq!(area, "h.csv: line 2: area 0 of point 5 at time 0, expected more than 0");
+    let friction = b"time,point,pressure,friction\n0,5,1,0\n0,6,1,-0.25\n";
+    assert_eq!(
+        fault("h.csv", friction, &Needs::of(&[Column::Friction])),
+        "h.csv: line 3: friction -0.25 of point 6 at time 0, expected at least 0"
+    );
     let normal =
         fault("h.csv", b"time,point,pressure,nx,ny,nz\n0,5,1,0,0,1\n0,6,1,0,0,0\n", &Needs::of(&Column::NORMAL));
     assert_eq!(normal, "h.csv: line 3: normal of length 0 at point 6, time 0");
