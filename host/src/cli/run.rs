@@ -77,6 +77,9 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     if let Some(earlier) = &earlier {
         keeper.take_up(&earlier.fields, fields.as_mut())?;
     }
+    if settings.resume {
+        keeper.sweep();
+    }
     let mut listener = Listener {
         console,
         interrupt: &interrupt,

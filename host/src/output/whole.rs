@@ -132,8 +132,12 @@ impl WholeFolder {
     #[must_use]
     pub fn place(&self) -> String {
         let name = self.path().file_name().unwrap_or_default().to_string_lossy();
-        if self.path().parent() == Some(self.target.as_path()) { name.into_owned() } else { format!("../{name}") }
+        // By its name and not by its path, which may be absolute where the target is not.
+        if name.starts_with(ASIDE) { name.into_owned() } else { format!("../{name}") }
     }
+
+    /// How the names of what is written aside in the folder of the results begin.
+    pub const ASIDE: &'static str = ASIDE;
 
     /// Whether a folder of this name was written aside.
     #[must_use]

@@ -15,6 +15,8 @@ use crate::record::{Checkpoint, Identity};
 pub const CHECKPOINT: &str = "checkpoint";
 /// Name of the folder of fields.
 const FIELDS: &str = "fields";
+/// Name of the locked file in a folder aside.
+const LOCK: &str = ".running";
 
 /// Writes the checkpoints of one run, and its results as a whole.
 #[derive(Debug)]
@@ -29,6 +31,8 @@ pub struct Keeper {
     finished: bool,
     /// Fields whose bytes are on the disk.
     synced: usize,
+    /// Locked in the folder aside as long as this run lives, so that a later one can tell what a killed run left behind.
+    lock: Option<File>,
     /// A folder aside of an earlier part of the run, which goes when nothing counts on it any more.
     left_over: Option<PathBuf>,
 }
@@ -39,7 +43,9 @@ impl Keeper {
     pub fn new(folder: WholeFolder, identity: Identity, interval: Option<f64>) -> Self {
         let interval = interval.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX));
         let written = Instant::now();
-        Self { folder, identity, interval, written, placed: false, finished: false, synced: 0, left_over: None }
+        // Where there are no locks, nothing is ever cleared away.
+        let lock = File::create(folder.path().join(LOCK)).ok().filter(|file| file.try_lock().is_ok());
+        Self { folder, identity, interval, written, placed: false, finished: false, synced: 0, lock, left_over: None }
     }
 
     /// The folder that the results are written into.
@@ -77,6 +83,27 @@ impl Keeper {
             self.left_over = place;
         }
         Ok(())
+    }
+
+    /// Clears away what killed runs of the same results left behind and no checkpoint counts on.
+    pub fn sweep(&self) {
+        let target = self.folder.target();
+        let name = target.file_name().unwrap_or_default().to_string_lossy();
+        for (place, prefix) in [(target, String::new()), (beside(target), format!(".{name}"))] {
+            for entry in fs::read_dir(place).into_iter().flatten().flatten() {
+                let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
+                let aside = name.strip_prefix(&prefix).is_some_and(|rest| rest.starts_with(WholeFolder::ASIDE));
+                if !aside || path == self.path() || self.left_over.as_ref() == Some(&path) {
+                    continue;
+                }
+                // What cannot be removed only takes room.
+                let _ = match path.is_dir() {
+                    true if is_dead(&path) => fs::remove_dir_all(&path),
+                    true => Ok(()),
+                    false => fs::remove_file(&path),
+                };
+            }
+        }
     }
 
     /// Whether a checkpoint is wanted now.
@@ -142,6 +169,10 @@ impl Keeper {
                 write_checkpoint(to, &stored.identity, &stored.fields, true, &stored.checkpoint)
             })?;
         }
+        if self.lock.take().is_some() {
+            let path = self.path().join(LOCK);
+            fs::remove_file(&path).map_err(OutputError::io("remove", &path))?;
+        }
         let left_over = self.left_over.take().filter(|folder| folder != self.path());
         self.folder.commit()?;
         if let Some(folder) = left_over {
@@ -157,15 +188,27 @@ fn place_of(out: &Path, place: &str) -> Option<PathBuf> {
         return Some(out.to_owned());
     }
     let mut parts = Path::new(place).components();
-    let (beside, name) = match (parts.next()?, parts.next()) {
+    let (is_beside, name) = match (parts.next()?, parts.next()) {
         (Component::ParentDir, Some(Component::Normal(name))) => (true, name),
         (Component::Normal(name), None) => (false, name),
         _ => return None,
     };
     let aside = parts.next().is_none() && WholeFolder::is_aside(&name.to_string_lossy());
-    let folder =
-        if beside { out.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new(".")) } else { out };
+    let folder = if is_beside { beside(out) } else { out };
     aside.then(|| folder.join(name))
+}
+
+/// The folder in which a folder of results lies.
+fn beside(out: &Path) -> &Path {
+    out.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."))
+}
+
+/// Whether the run that wrote a folder aside is no more; one without the file was being made or cleared away.
+fn is_dead(aside: &Path) -> bool {
+    match File::open(aside.join(LOCK)) {
+        Ok(lock) => lock.try_lock().is_ok(),
+        Err(error) => error.kind() == std::io::ErrorKind::NotFound,
+    }
 }
 
 /// A name without any folder in it.
