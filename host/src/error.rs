@@ -12,6 +12,7 @@ use crate::law::lookup::LookupError;
 use crate::law::{EvaluateError, LoadError};
 use crate::output::OutputError;
 use crate::plan::{PlanError, PlanProblem};
+use crate::record::Difference;
 use crate::scene::{Located, Location, SceneError};
 use crate::solve::SolveError;
 use crate::templates::TemplateError;
@@ -66,6 +67,9 @@ pub enum Error {
     /// Results could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// A run cannot go on from a checkpoint of another run.
+    #[error(transparent)]
+    Resume(#[from] Difference),
     /// A new law's folder could not be made.
     #[error(transparent)]
     Template(#[from] TemplateError),

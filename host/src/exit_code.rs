@@ -96,7 +96,7 @@ impl ExitCode {
                 DeckError::Read { cause, .. } => of_reading(cause.kind()),
                 _ => Self::InputWrong,
             },
-            Error::Lower { .. } | Error::Usage(_) | Error::Lookup(_) => Self::InputWrong,
+            Error::Resume(_) | Error::Lower { .. } | Error::Usage(_) | Error::Lookup(_) => Self::InputWrong,
             Error::Build(error) => of_build(error),
             Error::File(error) => of_file(error),
             Error::Load(error) if error.code_has_run() => Self::LawFailed,
@@ -115,11 +115,16 @@ impl ExitCode {
             Error::Solve(error) => of_solving(error),
             Error::History(error) => of_history(error),
             Error::Output(error) => match error {
-                OutputError::NotAResult { .. } | OutputError::NotAFolder { .. } | OutputError::InTheWay { .. } => {
-                    Self::InputWrong
-                }
+                OutputError::NotAResult { .. }
+                | OutputError::NotAFolder { .. }
+                | OutputError::InTheWay { .. }
+                | OutputError::NotACheckpoint { .. }
+                | OutputError::CheckpointVersion { .. } => Self::InputWrong,
                 OutputError::FieldLength { .. } | OutputError::TwoOfOneName { .. } => Self::ProgramFault,
-                OutputError::Io { .. } | OutputError::Drawing { .. } => Self::ReadWriteFailed,
+                OutputError::Io { .. }
+                | OutputError::Drawing { .. }
+                | OutputError::CheckpointDamaged { .. }
+                | OutputError::EarlierFields { .. } => Self::ReadWriteFailed,
             },
             Error::Template(error) if error.is_io() => Self::ReadWriteFailed,
             Error::Template(_) => Self::InputWrong,
@@ -146,7 +151,9 @@ fn of_evaluating(error: &EvaluateError) -> ExitCode {
 fn of_solving(error: &SolveError) -> ExitCode {
     match error {
         SolveError::History(error) => of_history(error),
-        SolveError::NoDuration { .. } | SolveError::HistoryTooShort { .. } => ExitCode::InputWrong,
+        SolveError::Checkpoint(_) | SolveError::NoDuration { .. } | SolveError::HistoryTooShort { .. } => {
+            ExitCode::InputWrong
+        }
         SolveError::Advance { source, .. } => match &**source {
             AdvanceError::Evaluate(PointError::Law(error)) => of_evaluating(error),
             AdvanceError::Evaluate(PointError::Batch(_)) => ExitCode::ProgramFault,
@@ -164,7 +171,7 @@ fn of_solving(error: &SolveError) -> ExitCode {
         },
         SolveError::Surface(error) => of_surface(error),
         SolveError::BeyondLimit { .. } | SolveError::DomainFull { .. } => ExitCode::NumbersFailed,
-        SolveError::Threads { .. } => ExitCode::ReadWriteFailed,
+        SolveError::Threads { .. } | SolveError::Contents { .. } => ExitCode::ReadWriteFailed,
         SolveError::Reference(ReferenceError::Read { source, .. }) => match source.kind() {
             csv::ErrorKind::Io(cause) => of_reading(cause.kind()),
             _ => ExitCode::InputWrong,

@@ -90,8 +90,16 @@ pub(super) struct RunArguments {
     /// Number of threads [default: as many as the machine has]; the results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
+    /// Go on from the checkpoint in the folder of the results, or begin if there is none
+    ///
+    /// The results are the same to the bit (all but `cost`) as those of a run that was never stopped. A finished run goes
+    /// on when the scene has become longer: a longer last step, a higher count of the last cycle, more steps or cycles.
+    /// Anything else that changes what is computed is refused. Every run leaves its last checkpoint among the results;
+    /// `output.checkpoint = SECONDS` writes them while it goes on, for runs that are killed.
+    #[arg(long)]
+    pub(super) resume: bool,
     /// List the built-in exact answers for [reference] kind, and run nothing
-    #[arg(long, conflicts_with_all = ["scene", "law", "overrides", "isolate", "deadline", "out", "threads"])]
+    #[arg(long, conflicts_with_all = ["scene", "law", "overrides", "isolate", "deadline", "out", "threads", "resume"])]
     pub(super) references: bool,
 }
 

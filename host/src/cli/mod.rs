@@ -16,6 +16,7 @@ mod new;
 mod opening;
 mod plan;
 mod progress;
+mod restart;
 mod run;
 mod standard_output;
 mod summary;

@@ -9,14 +9,15 @@ use super::console::Console;
 use super::interrupt::Interrupt;
 use super::opening::{self, OpenedLaw};
 use super::progress::Progress;
+use super::restart;
 use super::summary::Summary;
 use super::table::labelled;
 use super::writing::Listener;
 use crate::error::Error;
 use crate::exit_code::ExitCode;
 use crate::output::{
-    FieldFormat, FieldSeries, Figure, LawReport, Report, StabilityReport, WholeFolder, check_folder, write_history,
-    write_plot,
+    FieldFormat, FieldSeries, Figure, Keeper, LawReport, Report, StabilityReport, WholeFolder, check_folder,
+    write_history, write_plot,
 };
 use crate::plan::Plan;
 use crate::record::{End, HistoryRow, Record};
@@ -35,6 +36,8 @@ pub(super) struct Settings {
     pub(super) out: PathBuf,
     /// Number of threads; `None`: as many as the machine has.
     pub(super) threads: Option<usize>,
+    /// Whether it goes on from a checkpoint.
+    pub(super) resume: bool,
 }
 
 pub(super) fn command(console: &Console, arguments: RunArguments) -> Result<ExitCode, Error> {
@@ -47,6 +50,7 @@ pub(super) fn command(console: &Console, arguments: RunArguments) -> Result<Exit
                 scene,
                 shared: arguments.shared,
                 threads: arguments.threads.map(usize::from),
+                resume: arguments.resume,
             },
         ),
     }
@@ -60,20 +64,38 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     check_folder(&settings.out)?;
     let run = Run::prepare(&plan, law.evaluator.as_ref())?;
     run.check_reference()?;
+    let identity = restart::identity(&scene, &law, &run)?;
+    let earlier = if settings.resume { restart::earlier(&settings.out, &identity)? } else { None };
+    if settings.resume && earlier.is_none() {
+        console.note(&format!("no checkpoint in {}: the run begins at its start", settings.out.display()));
+    }
     let folder = WholeFolder::begin(&settings.out)?;
+    let mut keeper = Keeper::new(folder, identity, plan.output.checkpoint);
     let wanted = !plan.output.fields.is_empty() && !plan.output.formats.is_empty();
     let formats: Vec<FieldFormat> = plan.output.formats.iter().map(|format| field_format(*format)).collect();
-    let fields = wanted.then(|| FieldSeries::begin(&folder.path().join("fields"), &formats)).transpose()?;
+    let mut fields = wanted.then(|| FieldSeries::begin(&keeper.path().join("fields"), &formats)).transpose()?;
+    if let Some(earlier) = &earlier {
+        keeper.take_up(&earlier.fields, fields.as_mut())?;
+    }
+    if settings.resume {
+        keeper.sweep();
+    }
     let mut listener = Listener {
         console,
         interrupt: &interrupt,
         progress: Progress::start(console),
         fields,
+        keeper,
         geometry: run.geometry(),
         trouble: None,
     };
-    let record = run.go(settings.threads.unwrap_or(0), &mut listener);
-    let Listener { fields, trouble, progress, .. } = listener;
+    let threads = settings.threads.unwrap_or(0);
+    let record = match &earlier {
+        Some(earlier) => run.resume(threads, &mut listener, &earlier.checkpoint)?,
+        None => run.go(threads, &mut listener),
+    };
+    drop(earlier);
+    let Listener { fields, keeper, trouble, progress, .. } = listener;
     drop(progress);
     if let Some(error) = trouble {
         return Err(error.into());
@@ -86,13 +108,13 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
         Err(failure) => (None, Some(failure)),
     };
     let report = report(&scene, &plan, &law, settings, &record, error.as_ref())?;
-    write_history(&record.history, &folder.path().join("history.csv"))?;
+    write_history(&record.history, &keeper.path().join("history.csv"))?;
     let title = scene.title.clone().unwrap_or_else(|| settings.scene.display().to_string());
     let figure =
         Figure { title: &title, units: &record.units, history: &record.history, profile: record.profile.as_ref() };
-    write_plot(&figure, &folder.path().join("plot.svg"))?;
-    report.write(&folder.path().join("report.json"))?;
-    folder.commit()?;
+    write_plot(&figure, &keeper.path().join("plot.svg"))?;
+    report.write(&keeper.path().join("report.json"))?;
+    keeper.commit()?;
     let missed = error.as_ref().zip(plan.bar).filter(|(error, bar)| error.value.is_nan() || error.value > *bar);
     let (code, failure) = match record.end {
         End::Failed(error) => {

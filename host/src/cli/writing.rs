@@ -1,9 +1,9 @@
-//! Listens to a run: shows its progress, writes its fields, hears Ctrl-C.
+//! Listens to a run: shows its progress, writes its fields and checkpoints, hears Ctrl-C.
 
 use super::console::Console;
 use super::interrupt::Interrupt;
 use super::progress::{Progress, Stage};
-use crate::output::{FieldSeries, OutputError};
+use crate::output::{FieldSeries, Keeper, OutputError};
 use crate::record::{Event, Geometry, Observer, Wish};
 
 /// What `run` hears while the solver works.
@@ -12,6 +12,7 @@ pub(super) struct Listener<'a> {
     pub(super) interrupt: &'a Interrupt,
     pub(super) progress: Progress,
     pub(super) fields: Option<FieldSeries>,
+    pub(super) keeper: Keeper,
     pub(super) geometry: Geometry<'static>,
     /// The first file that could not be written; it ends the run.
     pub(super) trouble: Option<OutputError>,
@@ -36,7 +37,16 @@ impl Observer for Listener<'_> {
                     self.trouble.get_or_insert(error);
                 }
             }
+            Event::Checkpoint { checkpoint, last } => {
+                if let Err(error) = self.keeper.write(checkpoint, self.fields.as_ref(), last) {
+                    self.trouble.get_or_insert(error);
+                }
+            }
         }
         if self.interrupt.asked() || self.trouble.is_some() { Wish::Stop } else { Wish::GoOn }
+    }
+
+    fn wants_checkpoint(&mut self, last: bool) -> bool {
+        self.trouble.is_none() && self.keeper.is_due(last)
     }
 }

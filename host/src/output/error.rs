@@ -39,6 +39,43 @@ pub enum OutputError {
         /// The file or folder that stays.
         path: PathBuf,
     },
+    /// A file that is no checkpoint.
+    #[error("{} is no checkpoint of a run", path.display())]
+    NotACheckpoint {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A checkpoint in another layout.
+    #[error(
+        "checkpoint {} has layout {found}, expected {expected}: another version of the program wrote it",
+        path.display()
+    )]
+    CheckpointVersion {
+        /// The file.
+        path: PathBuf,
+        /// Its layout.
+        found: u64,
+        /// The one that is read here.
+        expected: u64,
+    },
+    /// A checkpoint that is not as it was written.
+    #[error("checkpoint {} is damaged: {what}", path.display())]
+    CheckpointDamaged {
+        /// The file.
+        path: PathBuf,
+        /// What was found.
+        what: &'static str,
+    },
+    /// Fields that a checkpoint counts on are not there any more.
+    #[error("{} has {found}, expected the {expected} bytes that the checkpoint counts on", path.display())]
+    EarlierFields {
+        /// The file.
+        path: PathBuf,
+        /// What was found, in words.
+        found: String,
+        /// Its length when the checkpoint was written.
+        expected: u64,
+    },
     /// An array does not have the numbers that its geometry asks for.
     #[error("`{name}` holds {found} numbers, expected {expected} ({points} points, {components} each)")]
     FieldLength {

@@ -57,7 +57,8 @@ pub fn write_fields(
 pub struct FieldSeries {
     folder: PathBuf,
     formats: Vec<FieldFormat>,
-    vtk_files: Vec<(f64, String)>,
+    /// All files so far with their times.
+    files: Vec<(f64, String)>,
 }
 
 impl FieldSeries {
@@ -67,13 +68,12 @@ impl FieldSeries {
     /// `Io` when the folder cannot be made.
     pub fn begin(folder: &Path, formats: &[FieldFormat]) -> Result<Self, OutputError> {
         fs::create_dir_all(folder).map_err(OutputError::io("create", folder))?;
-        Ok(Self { folder: folder.into(), formats: formats.to_vec(), vtk_files: Vec::new() })
+        Ok(Self { folder: folder.into(), formats: formats.to_vec(), files: Vec::new() })
     }
 
-    /// Goes on with a series whose earlier VTK files (`vtk_files` of the run that was stopped) are
-    /// or will be in the same folder.
-    pub fn resume(&mut self, vtk_files: impl IntoIterator<Item = (f64, String)>) {
-        self.vtk_files.splice(0..0, vtk_files);
+    /// Goes on with a series whose earlier files (`files` of the run that was stopped) are or will be in the same folder.
+    pub fn resume(&mut self, files: impl IntoIterator<Item = (f64, String)>) {
+        self.files.splice(0..0, files);
     }
 
     /// Writes the fields of one time in every format; a step written before is replaced.
@@ -83,19 +83,23 @@ impl FieldSeries {
     pub fn write(&mut self, snapshot: &Snapshot<'_>, geometry: &Geometry<'_>) -> Result<(), OutputError> {
         for &format in &self.formats {
             let path = write_fields(&self.folder, format, snapshot, geometry)?;
-            if format == FieldFormat::Vtk {
-                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                self.vtk_files.retain(|(_, earlier)| *earlier != name);
-                self.vtk_files.push((snapshot.time, name));
-            }
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            self.files.retain(|(_, earlier)| *earlier != name);
+            self.files.push((snapshot.time, name));
         }
         Ok(())
     }
 
-    /// The VTK files written so far with their times, which a resumed run needs for its series.
+    /// The folder that it writes into.
     #[must_use]
-    pub fn vtk_files(&self) -> &[(f64, String)] {
-        &self.vtk_files
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The files written so far with their times, which a resumed run needs for its series.
+    #[must_use]
+    pub fn files(&self) -> &[(f64, String)] {
+        &self.files
     }
 
     /// Writes `fields.pvd` where there are VTK files.
@@ -103,10 +107,12 @@ impl FieldSeries {
     /// # Errors
     /// `Io` with the path.
     pub fn finish(self) -> Result<(), OutputError> {
-        if self.vtk_files.is_empty() {
+        let is_vtk = |(_, name): &(f64, String)| name.ends_with(".vtp") || name.ends_with(".vti");
+        let vtk_files: Vec<(f64, String)> = self.files.into_iter().filter(is_vtk).collect();
+        if vtk_files.is_empty() {
             return Ok(());
         }
-        vtk::write_series(&self.folder.join("fields.pvd"), &self.vtk_files)
+        vtk::write_series(&self.folder.join("fields.pvd"), &vtk_files)
     }
 }
 

@@ -3,6 +3,7 @@
 //! meets half of one, and a field goes to its file in pieces, never as a second array.
 //! What the numbers mean, the report of a run and anything printed are not here.
 
+pub mod checkpoint;
 pub mod csv;
 mod error;
 mod fields;
@@ -13,6 +14,7 @@ mod report;
 pub mod vtk;
 pub mod whole;
 
+pub use checkpoint::{CHECKPOINT, EarlierFields, EarlierFile, Keeper, Stored, read_checkpoint, write_checkpoint};
 pub use csv::write_history;
 pub use error::OutputError;
 pub use fields::{FieldFormat, FieldSeries, write_fields};

@@ -13,7 +13,7 @@ use tempfile::{Builder, TempDir};
 
 /// The mark of a finished result: placed last, taken away first.
 const REPORT: &str = "report.json";
-/// What a run leaves when it is interrupted.
+/// What a run can be gone on from.
 const CHECKPOINT: &str = "checkpoint";
 /// Everything a run writes at the top of its folder; nothing else there is ever removed.
 const FILES: [&str; 5] = [REPORT, CHECKPOINT, "report.html", "history.csv", "plot.svg"];
@@ -122,6 +122,34 @@ impl WholeFolder {
         self.aside.path()
     }
 
+    /// Where the results will appear.
+    #[must_use]
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// The folder to write into as seen from the one of the results: a name in it, or `..` and a name beside it.
+    #[must_use]
+    pub fn place(&self) -> String {
+        let name = self.path().file_name().unwrap_or_default().to_string_lossy();
+        // By its name and not by its path, which may be absolute where the target is not.
+        if name.starts_with(ASIDE) { name.into_owned() } else { format!("../{name}") }
+    }
+
+    /// How the names of what is written aside in the folder of the results begin.
+    pub const ASIDE: &'static str = ASIDE;
+
+    /// Whether a folder of this name was written aside.
+    #[must_use]
+    pub fn is_aside(name: &str) -> bool {
+        name.contains(ASIDE)
+    }
+
+    /// Lets what was written aside stay when this goes without a commit, because a checkpoint counts on it.
+    pub fn stay(&mut self) {
+        self.aside.disable_cleanup(true);
+    }
+
     /// Writes a single file at its final place (`name` is relative to it) while the run still goes
     /// on, synced: a checkpoint.
     ///
@@ -152,24 +180,25 @@ impl WholeFolder {
     ///
     /// # Errors
     /// `Io` or `InTheWay`; then the earlier result is as it was and the new one is gone.
-    pub fn commit(self) -> Result<(), OutputError> {
+    pub fn commit(mut self) -> Result<(), OutputError> {
         if !self.target.exists() && fs::rename(self.aside.path(), &self.target).is_ok() {
             // Nothing is left under the old name for the guard to remove.
             let _ = self.aside.keep();
             return Ok(());
         }
         let mut moves = Moves::default();
-        let placed = self.place(&mut moves);
+        let placed = self.put(&mut moves);
         if placed.is_err() {
             moves.undo();
         } else {
+            self.aside.disable_cleanup(false);
             // Only an empty folder goes: the earlier run had fields and this one has none.
             let _ = fs::remove_dir(self.target.join(FIELDS));
         }
         placed
     }
 
-    fn place(&self, moves: &mut Moves) -> Result<(), OutputError> {
+    fn put(&self, moves: &mut Moves) -> Result<(), OutputError> {
         let (aside, target) = (self.aside.path(), self.target.as_path());
         let mut new = results_in(aside, |_| true)?;
         let mut old = results_in(target, is_result)?;

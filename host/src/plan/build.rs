@@ -92,7 +92,7 @@ impl Plan {
         let sizes =
             UnitSizes { metre: sizes.metre, kilogram: sizes.kilogram, second: sizes.second, kelvin: sizes.kelvin };
         let material = Material::resolve(scene, law, sizes)?;
-        refuse_unbuilt(scene, &material)?;
+        check_scaling(scene, &material)?;
         let is_prescribed = matches!(scene.contact.model, Model::Prescribed(_));
         let history = match &scene.contact.model {
             Model::Prescribed(prescribed) => prescribed.history.as_ref().map(|path| scene.resolve(path)),
@@ -166,29 +166,20 @@ impl Plan {
     }
 }
 
-fn refuse_unbuilt(scene: &Scene, material: &Material) -> Result<(), PlanError> {
-    let prescribed = matches!(scene.contact.model, Model::Prescribed(_));
-    match material.scaling.kind {
-        ScalingKind::None => {}
-        ScalingKind::Auto if !prescribed => {
-            if matches!(scene.integrator.accuracy, Accuracy::Tolerance(_)) {
-                return Err(scene.error_at("scaling.kind", PlanProblem::ScalingNeedsSubsteps));
-            }
-            let steps = scene.steps.iter().chain(scene.cycles.iter().flat_map(|cycle| &cycle.steps));
-            if steps.into_iter().any(|step| !step.ramp.is_empty()) {
-                return Err(scene.error_at("scaling.kind", PlanProblem::ScalingOfRamp));
-            }
-        }
-        ScalingKind::Cycle if !prescribed => {}
-        ScalingKind::Auto => return Err(scene.error_at("scaling.kind", PlanProblem::ScalingOfPrescribed)),
-        ScalingKind::Cycle => {
-            let problem = PlanProblem::NotBuilt { key: "scaling.kind = \"cycle\"".to_owned() };
-            return Err(scene.error_at("scaling.kind", problem));
-        }
+/// Refuses scaling where it has no meaning.
+fn check_scaling(scene: &Scene, material: &Material) -> Result<(), PlanError> {
+    if material.scaling.kind != ScalingKind::Auto {
+        return Ok(());
     }
-    if scene.output.checkpoint.is_some() {
-        let problem = PlanProblem::NotBuilt { key: "output.checkpoint".to_owned() };
-        return Err(scene.error_at("output.checkpoint", problem));
+    if matches!(scene.contact.model, Model::Prescribed(_)) {
+        return Err(scene.error_at("scaling.kind", PlanProblem::ScalingOfPrescribed));
+    }
+    if matches!(scene.integrator.accuracy, Accuracy::Tolerance(_)) {
+        return Err(scene.error_at("scaling.kind", PlanProblem::ScalingNeedsSubsteps));
+    }
+    let steps = scene.steps.iter().chain(scene.cycles.iter().flat_map(|cycle| &cycle.steps));
+    if steps.into_iter().any(|step| !step.ramp.is_empty()) {
+        return Err(scene.error_at("scaling.kind", PlanProblem::ScalingOfRamp));
     }
     Ok(())
 }

@@ -24,12 +24,6 @@ pub enum PlanProblem {
         "found automatic scaling (AUTS) in a load step that ramps, expected loading that is constant over each step: a scaled substep stands for many under the same load (kind = \"cycle\" scales whole cycles)"
     )]
     ScalingOfRamp,
-    /// A section that this version does not act on.
-    #[error("found `{key}`, which this version reads but does not act on yet")]
-    NotBuilt {
-        /// The key.
-        key: String,
-    },
     /// The law's constants are wrong.
     #[error(transparent)]
     Constants(#[from] ConstantsError),

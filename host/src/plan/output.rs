@@ -41,6 +41,8 @@ pub struct OutputPlan {
     pub every: Every,
     /// In which formats.
     pub formats: Vec<Format>,
+    /// Wall seconds between checkpoints; `None`: the last one only.
+    pub checkpoint: Option<f64>,
 }
 
 /// What the result is compared with.
@@ -70,7 +72,12 @@ impl OutputPlan {
             }
             fields.push((name.clone(), kind));
         }
-        Ok(OutputPlan { fields, every: scene.output.every.clone(), formats: scene.output.formats.clone() })
+        Ok(OutputPlan {
+            fields,
+            every: scene.output.every.clone(),
+            formats: scene.output.formats.clone(),
+            checkpoint: scene.output.checkpoint,
+        })
     }
 
     /// Whether a field of this kind is written.

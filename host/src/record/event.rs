@@ -1,6 +1,6 @@
 //! What a run tells while it goes on.
 
-use super::{HistoryRow, Snapshot};
+use super::{Checkpoint, HistoryRow, Snapshot};
 
 /// Something that has just happened.
 #[derive(Debug)]
@@ -23,6 +23,13 @@ pub enum Event<'a> {
     },
     /// Fields were asked for at this time.
     Snapshot(&'a Snapshot<'a>),
+    /// A place to go on from, of which [`Observer::wants_checkpoint`] said that it is wanted.
+    Checkpoint {
+        /// Everything that the rest of the run depends on.
+        checkpoint: &'a Checkpoint<'a>,
+        /// Whether the run ends here.
+        last: bool,
+    },
     /// Something to know that does not end the run.
     Warning(&'a str),
 }
@@ -40,6 +47,13 @@ pub enum Wish {
 pub trait Observer {
     /// Hears of an event and says whether to go on.
     fn observe(&mut self, event: Event<'_>) -> Wish;
+
+    /// Whether to be told of a checkpoint now; asked after every step or stretch that can be gone on from, and once more
+    /// when the run ends (`last`), before its last fields are told.
+    fn wants_checkpoint(&mut self, last: bool) -> bool {
+        let _ = last;
+        false
+    }
 }
 
 /// Listens to nothing.

@@ -4,18 +4,22 @@
 //! and `output` reads them.
 //! Large arrays are borrowed or owned alike, so a field reaches a file without a copy of its own.
 
+mod checkpoint;
 mod event;
 mod field;
 mod geometry;
 mod history;
+mod identity;
 mod profile;
 mod run;
 mod units;
 
+pub use checkpoint::{Checkpoint, CheckpointError};
 pub use event::{Event, Nobody, Observer, Wish};
 pub use field::{Field, FieldData, Snapshot};
 pub use geometry::{Geometry, Grid, PointIds, Points};
 pub use history::{History, HistoryRow};
+pub use identity::{Difference, Identity, LawIdentity};
 pub use profile::{Line, Profile};
 pub use run::{Cost, End, MemoryLine, Record};
 pub use units::Units;

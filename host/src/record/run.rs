@@ -1,11 +1,11 @@
 //! A run as a whole: what came out, what it cost and how it ended.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Geometry, History, Profile, Units};
 
 /// Work and time of a run. Times are wall seconds; what depends on the machine's load stands here and nowhere else.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
     /// Time of the run without building and loading the law; s.
     pub run_time_s: f64,

@@ -79,6 +79,17 @@ pub enum SolveError {
         /// What the system said.
         text: String,
     },
+    /// A checkpoint that the plan cannot go on from.
+    #[error(transparent)]
+    Checkpoint(#[from] crate::record::CheckpointError),
+    /// What the plan depends on could not be read for the checkpoint.
+    #[error("could not read {} for the checkpoint: {source}", path.display())]
+    Contents {
+        /// The file.
+        path: std::path::PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
     /// The reference could not be evaluated.
     #[error(transparent)]
     Reference(#[from] super::ReferenceError),

@@ -6,6 +6,7 @@
 
 mod chunk;
 mod claims;
+mod contents;
 mod coupled;
 mod ending;
 mod error;

@@ -1,5 +1,9 @@
 //! One run under a prescribed pressure: prepared, then gone through.
 
+mod place;
+mod rounds;
+
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use crate::contact::prescribed::{History, Motion};
@@ -8,16 +12,15 @@ use crate::integrator::substeps::Control;
 use crate::integrator::{Tally, norm};
 use crate::law::{Evaluator, OutputItem};
 use crate::plan::{Advance, FieldKind, Plan, ReferencePlan};
-use crate::record::{self, Cost, End, Event, HistoryRow, Line, MemoryLine, Nobody, Observer, Record, Wish};
-use crate::scene::Every;
+use crate::record::{self, Checkpoint, Cost, End, Event, Line, MemoryLine, Nobody, Observer, Record, Wish};
+use crate::scene::ScalingKind;
 use crate::solve::chunk::SCANNED_POINTS;
-use crate::solve::ending::{peak_memory, stop_reached};
 use crate::solve::inputs::Drive;
 use crate::solve::progress::Arrays;
-use crate::solve::schedule::{self, Piece};
+use crate::solve::schedule::{self, Piece, Schedule};
 use crate::solve::site::Site;
-use crate::solve::sums::Sums;
-use crate::solve::{ErrorNorm, SolveError, claims, compare, fields, reference};
+use crate::solve::{ErrorNorm, SolveError, compare, contents, fields, reference};
+use place::Place;
 
 /// Different instants between two rows at which points change sign that become events of their own; more of them are
 /// left to the quadrature's halving.
@@ -44,6 +47,15 @@ struct Going {
     steps: u64,
     start_pressure: Vec<f64>,
     end_pressure: Vec<f64>,
+    /// Where the loading can be gone on from; `None`: it has not begun.
+    place: Option<Place>,
+    /// What the evaluator warned of by the last checkpoint; told at the end.
+    asides: Vec<String>,
+    /// What the part before the checkpoint has cost that the run went on from.
+    spent: Cost,
+    begin: Instant,
+    /// What the observer wished after the last step.
+    wish: Wish,
 }
 
 impl<'p> Prescribed<'p> {
@@ -56,7 +68,7 @@ impl<'p> Prescribed<'p> {
         let points = history.as_ref().map_or(1, History::points);
         let mut run = Prescribed { plan, evaluator, history, points, distances: false };
         let mut first = None;
-        for placed in schedule::placed(plan, run.history.as_ref())? {
+        for placed in Schedule::new(plan, run.history.as_ref())?.placed() {
             first = schedule::pieces(plan, run.history.as_ref(), points, placed).into_iter().next();
             if first.is_some() {
                 break;
@@ -97,7 +109,7 @@ impl<'p> Prescribed<'p> {
     /// # Errors
     /// A history that does not cover the loading.
     pub(super) fn pieces_planned(&self) -> Result<u64, SolveError> {
-        let placed = schedule::placed(self.plan, self.history.as_ref())?;
+        let placed = Schedule::new(self.plan, self.history.as_ref())?.placed();
         Ok(placed.map(|placed| self.pieces(placed).len() as u64).sum())
     }
 
@@ -107,7 +119,7 @@ impl<'p> Prescribed<'p> {
     /// A history that does not cover the loading.
     pub(super) fn least_evaluations(&self) -> Result<u64, SolveError> {
         let mut evaluations = 0;
-        for placed in schedule::placed(self.plan, self.history.as_ref())? {
+        for placed in Schedule::new(self.plan, self.history.as_ref())?.placed() {
             for piece in self.pieces(placed) {
                 let drive = Drive::new(self.plan, self.history.as_ref(), &piece);
                 let site = self.site(&piece);
@@ -125,10 +137,32 @@ impl<'p> Prescribed<'p> {
         self.plan.output.has(FieldKind::Direction) && self.evaluator.descriptor().writes(OutputItem::Direction)
     }
 
-    /// Goes through the plan on at most `threads` threads (0: as many as the machine has).
+    /// Hashes of what stands behind names of files.
+    ///
+    /// # Errors
+    /// A history that cannot be read again.
+    pub(super) fn contents(&self) -> Result<BTreeMap<String, String>, SolveError> {
+        let mut all = BTreeMap::new();
+        all.insert("the constants of the law".to_owned(), contents::of_value(&self.plan.material));
+        if let Some(path) = &self.plan.history {
+            all.insert("the history".to_owned(), contents::of_file(path)?);
+        }
+        Ok(all)
+    }
+
+    /// Goes through the plan on at most `threads` threads (0: as many as the machine has), from a checkpoint if there is
+    /// one.
     ///
     /// However the run ends, the record holds what was done.
-    pub(super) fn go(&self, threads: usize, observer: &mut (dyn Observer + Send)) -> Record<SolveError> {
+    ///
+    /// # Errors
+    /// A checkpoint that is not of this plan; nothing has been done then.
+    pub(super) fn go(
+        &self,
+        threads: usize,
+        observer: &mut (dyn Observer + Send),
+        from: Option<&Checkpoint<'_>>,
+    ) -> Result<Record<SolveError>, SolveError> {
         let begin = Instant::now();
         let mut going = Going {
             arrays: Arrays::new(
@@ -145,7 +179,15 @@ impl<'p> Prescribed<'p> {
             steps: 0,
             start_pressure: Vec::new(),
             end_pressure: Vec::new(),
+            place: None,
+            asides: Vec::new(),
+            spent: Cost::default(),
+            begin,
+            wish: Wish::GoOn,
         };
+        if let Some(from) = from {
+            self.take_up(&mut going, from)?;
+        }
         let geometry = fields::geometry(self.plan, self.history.as_ref(), self.points);
         let line = Line::of(&geometry);
         // One chunk of points has nothing to share out.
@@ -154,7 +196,7 @@ impl<'p> Prescribed<'p> {
             Ok(pool) => pool.install(|| self.steps(&mut going, observer, line.is_some())),
             Err(error) => End::Failed(SolveError::Threads { threads, text: error.to_string() }),
         };
-        for warning in self.evaluator.take_warnings() {
+        for warning in std::mem::take(&mut going.asides).into_iter().chain(self.evaluator.take_warnings()) {
             if !going.warnings.contains(&warning) {
                 observer.observe(Event::Warning(&warning));
                 going.warnings.push(warning);
@@ -173,19 +215,10 @@ impl<'p> Prescribed<'p> {
                 Quadrature::Adaptive(_) | Quadrature::AdaptiveRule(..) | Quadrature::Fixed | Quadrature::Exact
             ) | Advance::Substeps(Control::Tolerance(_), _)
         );
-        Record {
+        Ok(Record {
             estimated_error: (estimated && size > 0.0).then(|| going.tally.error / size),
             largest_step: going.tally.longest,
-            cost: Cost {
-                run_time_s: begin.elapsed().as_secs_f64(),
-                law_time_s: going.law_time.as_secs_f64(),
-                steps: going.steps,
-                rejected_steps: going.tally.rejected,
-                law_calls: going.tally.law_calls,
-                points_evaluated: going.tally.points_evaluated,
-                peak_memory_bytes: peak_memory(),
-                ..Cost::default()
-            },
+            cost: going.cost(begin),
             history: going.history,
             wear: going.arrays.wear,
             pressure: Vec::new(),
@@ -196,7 +229,7 @@ impl<'p> Prescribed<'p> {
             geometry,
             units,
             end,
-        }
+        })
     }
 
     fn site<'s>(&'s self, piece: &'s Piece<'s>) -> Site<'s> {
@@ -235,119 +268,6 @@ impl<'p> Prescribed<'p> {
         events
     }
 
-    fn steps(&self, going: &mut Going, observer: &mut (dyn Observer + Send), profiled: bool) -> End<SolveError> {
-        // One after another: a scene may have more cycles than a list of them has room for.
-        let placed = match schedule::placed(self.plan, self.history.as_ref()) {
-            Ok(placed) => placed,
-            Err(error) => return End::Failed(error),
-        };
-        let (start, end) = schedule::span(self.plan, self.history.as_ref());
-        let units = fields::units(self.plan);
-        let mut last: Option<Piece<'_>> = None;
-        for placed in placed {
-            for piece in self.pieces(placed) {
-                let site = self.site(&piece);
-                let drive = Drive::new(self.plan, self.history.as_ref(), &piece);
-                if going.history.rows.is_empty() {
-                    let sums = going.arrays.measure(&site, &drive, 0.0);
-                    going.history.rows.push(self.row(piece.start, 0.0, piece.placed.cycle, &sums, &going.arrays));
-                    if profiled {
-                        going.start_pressure = fields::pressure(&site, &drive, 0.0, self.points);
-                    }
-                }
-                let tried = match self.plan.advance {
-                    Advance::Rate(_) if going.steps == 0 => {
-                        claims::linear_in_dt(&site, &drive, self.evaluator, self.points, &mut going.tally)
-                    }
-                    _ => Ok(()),
-                };
-                let advanced = tried.and_then(|()| going.arrays.advance(&site, &drive, self.evaluator));
-                let done = match advanced {
-                    Ok(done) => done,
-                    Err(source) => {
-                        let (load_step, substep, time) = (piece.placed.number, piece.substep, piece.start);
-                        let source = Box::new(source);
-                        self.finish(going, last.as_ref(), observer, &units, profiled);
-                        return End::Failed(SolveError::Advance { load_step, substep, time, source });
-                    }
-                };
-                going.tally.then(&done.tally);
-                going.law_time += done.law_time;
-                going.steps += 1;
-                for warning in done.warnings {
-                    if !going.warnings.contains(&warning) {
-                        observer.observe(Event::Warning(&warning));
-                        going.warnings.push(warning);
-                    }
-                }
-                let row = self.row(piece.end, piece.end - piece.start, piece.placed.cycle, &done.sums, &going.arrays);
-                let part = if end > start { (piece.end - start) / (end - start) } else { 1.0 };
-                let wish = observer.observe(Event::Step { row: &row, steps: going.steps, done: part });
-                going.history.rows.push(row);
-                if self.wants_snapshot(&piece, going.steps) {
-                    let snapshot = fields::snapshot(&site, &drive, &going.arrays, going.steps, &units);
-                    observer.observe(Event::Snapshot(&snapshot));
-                }
-                last = Some(piece);
-                let stop = stop_reached(&self.plan.stop, &row);
-                if wish == Wish::Stop || stop.is_some() {
-                    self.finish(going, last.as_ref(), observer, &units, profiled);
-                    return stop.map_or(End::Interrupted, End::Stopped);
-                }
-            }
-        }
-        self.finish(going, last.as_ref(), observer, &units, profiled);
-        End::Done
-    }
-
-    /// What is left to tell when a run ends, for whatever reason: the fields and the pressure at its last step.
-    fn finish(
-        &self,
-        going: &mut Going,
-        last: Option<&Piece<'_>>,
-        observer: &mut (dyn Observer + Send),
-        units: &record::Units,
-        profiled: bool,
-    ) {
-        let Some(piece) = last else { return };
-        let site = self.site(piece);
-        let drive = Drive::new(self.plan, self.history.as_ref(), piece);
-        if profiled {
-            going.end_pressure = fields::pressure(&site, &drive, 1.0, self.points);
-        }
-        if !self.plan.output.fields.is_empty() && !self.wants_snapshot(piece, going.steps) {
-            let snapshot = fields::snapshot(&site, &drive, &going.arrays, going.steps, units);
-            observer.observe(Event::Snapshot(&snapshot));
-        }
-    }
-
-    fn wants_snapshot(&self, piece: &Piece<'_>, steps: u64) -> bool {
-        let asked = match &self.plan.output.every {
-            Every::End => false,
-            Every::Steps(every) => steps.is_multiple_of(*every),
-            Every::Times(_) => piece.output,
-        };
-        asked && !self.plan.output.fields.is_empty()
-    }
-
-    fn row(&self, time: f64, dt: f64, cycle: i64, sums: &Sums, arrays: &Arrays) -> HistoryRow {
-        let areas = self.plan.columns.has(crate::contact::prescribed::Column::Area);
-        HistoryRow {
-            time,
-            dt,
-            sliding_distance: if self.distances { sums.max_distance } else { arrays.uniform_distance },
-            load: areas.then_some(sums.load),
-            approach: None,
-            max_pressure: sums.max_pressure,
-            contact_area: areas.then_some(sums.area),
-            max_wear_depth: sums.max_wear,
-            wear_volume: areas.then_some(sums.volume),
-            scale: 1.0,
-            simulated_time: time,
-            cycle: cycle as f64,
-        }
-    }
-
     /// Checks, before anything is computed, that the reference which the plan names can be had.
     ///
     /// # Errors
@@ -379,7 +299,8 @@ impl<'p> Prescribed<'p> {
             ReferencePlan::Exact(named) => {
                 let until = record.history.last().map_or(0.0, |row| row.time);
                 let mut pieces = Vec::new();
-                for placed in schedule::placed(self.plan, self.history.as_ref())? {
+                // Errors compare at represented time: with the loading that was asked for, every cycle of it.
+                for placed in Schedule::new(self.plan, self.history.as_ref())?.unscaled().placed() {
                     pieces.extend(self.pieces(placed).into_iter().filter(|piece| piece.end <= until));
                 }
                 let sites: Vec<_> = pieces
@@ -396,6 +317,7 @@ impl<'p> Prescribed<'p> {
     fn refined(&self) -> Result<Vec<f64>, SolveError> {
         let mut plan = self.plan.clone();
         plan.output.fields.clear();
+        plan.material.scaling.kind = ScalingKind::None;
         plan.substeps = plan.substeps.map(|substeps| substeps.saturating_mul(16));
         plan.advance = match plan.advance {
             Advance::Rate(Quadrature::Adaptive(tolerance)) => {
@@ -409,7 +331,7 @@ impl<'p> Prescribed<'p> {
             }
             other => other,
         };
-        let record = Prescribed::prepare(&plan, self.evaluator)?.go(1, &mut Nobody);
+        let record = Prescribed::prepare(&plan, self.evaluator)?.go(1, &mut Nobody, None)?;
         match record.end {
             End::Failed(error) => Err(error),
             _ => Ok(record.wear),

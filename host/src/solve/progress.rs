@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use crate::integrator::{AdvanceError, Tally};
 use crate::law::Evaluator;
+use crate::record::{Checkpoint, CheckpointError};
 use crate::solve::PointError;
 use crate::solve::chunk::{self, CHUNK, Done, Scratch, Slices};
 use crate::solve::inputs::Drive;
@@ -29,7 +30,12 @@ pub(super) struct Arrays {
     states: usize,
     /// Whether a piece has been gone through; before, wear and distances are zero.
     worn: bool,
+    /// All of it before the last piece, where that is little.
+    spare: Vec<f64>,
 }
+
+/// Numbers up to which a run keeps its arrays twice, so that a piece that fails can be undone.
+const MOST_SPARE: usize = 400_000;
 
 /// What one piece came to.
 pub(super) struct PieceDone {
@@ -57,6 +63,7 @@ impl Arrays {
             hints: vec![f64::INFINITY; points.div_ceil(CHUNK)],
             states: initial_state.len(),
             worn: false,
+            spare: Vec::new(),
         }
     }
 
@@ -171,6 +178,63 @@ impl Arrays {
         for (wear, increment) in self.wear.iter_mut().zip(&self.averaged) {
             *wear += increment;
         }
+    }
+
+    fn all(&mut self) -> [&mut [f64]; 6] {
+        let uniform = std::slice::from_mut(&mut self.uniform_distance);
+        [uniform, &mut self.wear, &mut self.state, &mut self.distance, &mut self.direction, &mut self.hints]
+    }
+
+    /// Keeps what the arrays hold, for [`Arrays::go_back`].
+    pub(super) fn remember(&mut self) {
+        let mut spare = std::mem::take(&mut self.spare);
+        spare.clear();
+        let all = self.all();
+        if all.iter().map(|data| data.len()).sum::<usize>() <= MOST_SPARE {
+            all.into_iter().for_each(|data| spare.extend_from_slice(data));
+        }
+        self.spare = spare;
+    }
+
+    /// Takes up what was kept; false: it was too much to be kept.
+    pub(super) fn go_back(&mut self) -> bool {
+        let spare = std::mem::take(&mut self.spare);
+        let mut rest = &spare[..];
+        for data in self.all() {
+            let Some((kept, more)) = rest.split_at_checked(data.len()) else { return false };
+            data.copy_from_slice(kept);
+            rest = more;
+        }
+        true
+    }
+
+    /// Saves all that the next piece depends on.
+    pub(super) fn save<'a>(&'a self, to: &mut Checkpoint<'a>) {
+        to.set("uniform_distance", self.uniform_distance);
+        for (name, data) in [
+            ("wear", &self.wear),
+            ("state", &self.state),
+            ("distance", &self.distance),
+            ("direction", &self.direction),
+            ("hints", &self.hints),
+        ] {
+            to.put(name, &data[..]);
+        }
+    }
+
+    /// Takes up what was saved; `worn`: a piece has been gone through.
+    ///
+    /// # Errors
+    /// Arrays that are not there, or are not as long as these.
+    pub(super) fn take_up(&mut self, from: &Checkpoint<'_>, worn: bool) -> Result<(), CheckpointError> {
+        self.uniform_distance = from.number("uniform_distance")?;
+        from.copy("wear", &mut self.wear)?;
+        from.copy("state", &mut self.state)?;
+        from.copy("distance", &mut self.distance)?;
+        from.copy("direction", &mut self.direction)?;
+        from.copy("hints", &mut self.hints)?;
+        self.worn = worn;
+        Ok(())
     }
 
     /// Sums over all points at a fraction of a piece.

@@ -1,11 +1,13 @@
 //! One run: prepared, then gone through.
 
+use std::collections::BTreeMap;
+
 use super::coupled::Coupled;
 use super::prescribed::Prescribed;
 use super::{ErrorNorm, SolveError};
 use crate::law::Evaluator;
 use crate::plan::Plan;
-use crate::record::{Geometry, MemoryLine, Observer, Record};
+use crate::record::{Checkpoint, Geometry, MemoryLine, Observer, Record};
 
 /// A plan with its files read, ready to go.
 pub struct Run<'p> {
@@ -80,9 +82,49 @@ impl<'p> Run<'p> {
     ///
     /// However the run ends, the record holds what was done.
     pub fn go(&self, threads: usize, observer: &mut (dyn Observer + Send)) -> Record<SolveError> {
+        match self.go_from(threads, observer, None) {
+            Ok(record) => record,
+            // Only a checkpoint is refused, and there is none.
+            Err(error) => unreachable!("a run from its start was refused: {error}"),
+        }
+    }
+
+    /// Goes on from a checkpoint as [`Run::go`] goes from the start, with the same bits as a run that was never stopped.
+    ///
+    /// Whether the checkpoint is of a run of this scene is for [`crate::record::Identity::follows`] to say.
+    ///
+    /// # Errors
+    /// A checkpoint that lacks what this plan needs, or has it in another size; nothing has been done then.
+    pub fn resume(
+        &self,
+        threads: usize,
+        observer: &mut (dyn Observer + Send),
+        from: &Checkpoint<'_>,
+    ) -> Result<Record<SolveError>, SolveError> {
+        self.go_from(threads, observer, Some(from))
+    }
+
+    fn go_from(
+        &self,
+        threads: usize,
+        observer: &mut (dyn Observer + Send),
+        from: Option<&Checkpoint<'_>>,
+    ) -> Result<Record<SolveError>, SolveError> {
         match &self.kind {
-            Kind::Prescribed(run) => run.go(threads, observer),
-            Kind::Coupled(run) => run.go(threads, observer),
+            Kind::Prescribed(run) => run.go(threads, observer, from),
+            Kind::Coupled(run) => run.go(threads, observer, from),
+        }
+    }
+
+    /// SHA-256 of what stands behind the names of files in the scene, by what it is: a history, a surface, velocities, and
+    /// the constants, which a deck may give.
+    ///
+    /// # Errors
+    /// A history that cannot be read again.
+    pub fn contents(&self) -> Result<BTreeMap<String, String>, SolveError> {
+        match &self.kind {
+            Kind::Prescribed(run) => run.contents(),
+            Kind::Coupled(run) => Ok(run.contents()),
         }
     }
 

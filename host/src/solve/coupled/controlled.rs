@@ -77,18 +77,25 @@ impl<'p> Coupled<'p> {
         system: &mut System<'p>,
         going: &mut Going<'_>,
         segment: Segment<'p>,
-        (start, until, number): (f64, f64, i64),
+        until: f64,
         cycles_per_time: f64,
-    ) -> Result<i64, Leave> {
+    ) -> Result<(), Leave> {
+        let (start, number) = (going.place.at, going.place.number);
         let begin = going.stepper.moment(system);
+        let clock = going.clock;
         let mut coarse: Option<Pass> = None;
         let mut steps = going.control.steps;
         let mut failures = 0;
         loop {
             going.stepper.return_to(system, &begin);
             let tried =
-                self.pass(system, going, segment, (start, until, number), (steps, coarse.as_ref(), cycles_per_time))?;
-            let fine = match tried {
+                self.pass(system, going, segment, (start, until, number), (steps, coarse.as_ref(), cycles_per_time));
+            if tried.is_err() {
+                // Nothing of a trial stays.
+                going.stepper.return_to(system, &begin);
+                going.clock = clock;
+            }
+            let fine = match tried? {
                 Ok(pass) => pass,
                 Err(source) => {
                     failures += 1;
@@ -194,7 +201,7 @@ impl<'p> Coupled<'p> {
         going: &mut Going<'_>,
         segment: Segment<'p>,
         (begin, fine): (&Moment, &Pass),
-    ) -> Result<i64, Leave> {
+    ) -> Result<(), Leave> {
         let stops = fine.taken.iter().any(|taken| stop_reached(&self.plan.stop, &taken.row).is_some());
         let again = stops || matches!(self.plan.output.every, Every::Steps(_)) && !self.plan.output.fields.is_empty();
         if again {
@@ -207,9 +214,14 @@ impl<'p> Coupled<'p> {
                 repeated.map_err(|source| failed(&segment, taken.reach.number - 1, taken.reach.start, source))?;
             }
             going.clock = taken.clock;
-            going.tell(system, &segment, &taken.accepted, taken.row, k == last)?;
+            going.tell(system, &segment, &taken.accepted, taken.row, k == last);
+            (going.place.at, going.place.number) = (taken.reach.until, taken.reach.number);
+            // A wish to end waits for the end of the stretch, where it can be gone on from.
+            if again && matches!(going.leaving, Some(Leave::Stopped(_))) {
+                break;
+            }
         }
-        Ok(fine.taken.last().map_or(0, |taken| taken.reach.number))
+        Ok(())
     }
 }
 

@@ -1,15 +1,19 @@
 //! What changes from step to step of a run, and what is told of it.
 
+use std::time::Instant;
+
 use super::controlled::Control;
+use super::place::Place;
 use super::rows::{self, Clock};
 use super::segment::Segment;
 use super::stepper::{Accepted, Stepper};
 use super::system::System;
 use crate::contact::Control as Pressing;
-use crate::record::{self, Event, HistoryRow, Observer, Wish};
+use crate::law::Evaluator;
+use crate::record::{self, Cost, Event, HistoryRow, Observer, Wish};
 use crate::scene::Every;
 use crate::solve::SolveError;
-use crate::solve::ending::stop_reached;
+use crate::solve::ending::{peak_memory, stop_reached};
 
 /// What changes from step to step.
 pub(super) struct Going<'o> {
@@ -29,6 +33,14 @@ pub(super) struct Going<'o> {
     pub(super) snapshot_told: bool,
     /// What presses at the end of the last step.
     pub(super) pressed: Option<Pressing>,
+    pub(super) place: Place,
+    /// What the evaluator warned of by the last checkpoint; told at the end.
+    pub(super) asides: Vec<String>,
+    /// What the part before the checkpoint has cost that the run went on from.
+    pub(super) spent: Cost,
+    pub(super) begin: Instant,
+    /// Why the run ends where it can be gone on from next.
+    pub(super) leaving: Option<Leave>,
 }
 
 /// Why the loop ends early.
@@ -71,7 +83,35 @@ impl Going<'_> {
         if self.observer.observe(event) == Wish::Stop { Err(Leave::Interrupted) } else { Ok(()) }
     }
 
-    /// Tells of a step, and hears whether to go on.
+    /// What the run has cost by now, with the part before a checkpoint that it went on from.
+    pub(super) fn cost(&self, system: &System<'_>) -> Cost {
+        let (law, work, spent) = (&system.law, &system.work, &self.spent);
+        Cost {
+            run_time_s: spent.run_time_s + self.begin.elapsed().as_secs_f64(),
+            law_time_s: spent.law_time_s + law.law_time.as_secs_f64(),
+            contact_time_s: spent.contact_time_s + work.time.as_secs_f64(),
+            steps: self.steps,
+            rejected_steps: self.rejected,
+            law_calls: spent.law_calls + law.law_calls,
+            points_evaluated: spent.points_evaluated + law.points_evaluated,
+            contact_solves: spent.contact_solves + work.solves,
+            contact_iterations: spent.contact_iterations + work.iterations,
+            fft_pairs: spent.fft_pairs + work.fft_pairs,
+            peak_memory_bytes: peak_memory(),
+        }
+    }
+
+    /// At a place that can be gone on from: ends the run if there is a reason to, else tells of a checkpoint if one is
+    /// wanted.
+    pub(super) fn settle(&mut self, system: &System<'_>, evaluator: &dyn Evaluator) -> Result<(), Leave> {
+        if let Some(leave) = self.leaving.take() {
+            return Err(leave);
+        }
+        self.offer(system, evaluator, false);
+        Ok(())
+    }
+
+    /// Tells of a step; what it gives reason to end for is left for the next place that can be gone on from.
     pub(super) fn tell(
         &mut self,
         system: &mut System<'_>,
@@ -79,7 +119,7 @@ impl Going<'_> {
         accepted: &Accepted,
         row: HistoryRow,
         at_cut: bool,
-    ) -> Result<(), Leave> {
+    ) {
         self.steps += 1;
         self.rejected += accepted.rejected;
         self.replaced += u64::from(accepted.replaced);
@@ -88,11 +128,16 @@ impl Going<'_> {
         for warning in std::mem::take(&mut system.law.warnings) {
             self.warn(warning);
         }
-        if let Some(warning) = rows::check_rim(system, segment, &self.clock)? {
-            let kind = warning.split(',').next().unwrap_or_default().to_owned();
-            if !self.warnings.iter().any(|known| known.starts_with(&kind)) {
-                self.warn(warning);
+        let mut full = None;
+        match rows::check_rim(system, segment, &self.clock) {
+            Ok(None) => {}
+            Ok(Some(warning)) => {
+                let kind = warning.split(',').next().unwrap_or_default().to_owned();
+                if !self.warnings.iter().any(|known| known.starts_with(&kind)) {
+                    self.warn(warning);
+                }
             }
+            Err(error) => full = Some(Leave::Failed(error)),
         }
         let done = self.done();
         let wish = self.observer.observe(Event::Step { row: &row, steps: self.steps, done });
@@ -110,11 +155,9 @@ impl Going<'_> {
             let snapshot = rows::snapshot(system, &self.stepper, &self.clock, self.steps, &self.units);
             self.observer.observe(Event::Snapshot(&snapshot));
         }
-        match stop_reached(&system.plan.stop, &row) {
-            Some(reason) => Err(Leave::Stopped(reason)),
-            None if wish == Wish::Stop => Err(Leave::Interrupted),
-            None => Ok(()),
-        }
+        let stopped = || stop_reached(&system.plan.stop, &row).map(Leave::Stopped);
+        let interrupted = || (wish == Wish::Stop).then_some(Leave::Interrupted);
+        self.leaving = self.leaving.take().or(full).or_else(stopped).or_else(interrupted);
     }
 
     /// What is left to tell when a run ends, for whatever reason.

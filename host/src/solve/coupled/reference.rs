@@ -68,7 +68,7 @@ impl Coupled<'_> {
         plan.substeps = plan.substeps.map(|substeps| substeps.saturating_mul(MORE_SUBSTEPS));
         plan.tolerance = plan.tolerance.map(|tolerance| tolerance * REFINEMENT);
         solved.contact_tolerance = (0.1 * solved.contact_tolerance).max(1e-12);
-        let finer = Coupled::prepare(&plan, &solved, self.evaluator)?.go(0, &mut Nobody);
+        let finer = Coupled::prepare(&plan, &solved, self.evaluator)?.go(0, &mut Nobody, None)?;
         match finer.end {
             End::Failed(error) => Err(error),
             _ => Ok(Expected {

@@ -1,9 +1,11 @@
 //! One run on a contact that answers back: prepared, then gone through.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use super::controlled::Control;
 use super::going::{Going, Leave};
+use super::place::Place;
 use super::rows::{self, Clock};
 use super::segment::Segment;
 use super::stepper::{Reach, Stepper};
@@ -12,10 +14,9 @@ use crate::contact::surface::height_map;
 use crate::integrator::{Formula, norm};
 use crate::law::Evaluator;
 use crate::plan::{Block, Plan, SolvedPlan};
-use crate::record::{self, Cost, End, Line, Observer, Record};
+use crate::record::{self, Checkpoint, Cost, End, Line, Observer, Record};
 use crate::scene::ScalingKind;
-use crate::solve::ending::peak_memory;
-use crate::solve::{SolveError, fields};
+use crate::solve::{SolveError, contents, fields};
 
 /// Cells below which more threads than one cost more than they give.
 const SHARED: usize = 512 * 512;
@@ -49,8 +50,29 @@ impl<'p> Coupled<'p> {
         self.gap.len()
     }
 
-    /// Goes through the plan on at most `threads` threads (0: as many as the machine has).
-    pub(in crate::solve) fn go(&self, threads: usize, observer: &mut (dyn Observer + Send)) -> Record<SolveError> {
+    /// Hashes of what stands behind names of files.
+    pub(in crate::solve) fn contents(&self) -> BTreeMap<String, String> {
+        let mut contents = BTreeMap::from([
+            ("the constants of the law".to_owned(), contents::of_value(&self.plan.material)),
+            ("the surface".to_owned(), contents::of_numbers(&self.gap)),
+        ]);
+        contents.extend(self.velocities.iter().enumerate().map(|(index, velocities)| {
+            (format!("the file of velocities number {}", index + 1), contents::of_numbers(velocities))
+        }));
+        contents
+    }
+
+    /// Goes through the plan on at most `threads` threads (0: as many as the machine has), from a checkpoint if there is
+    /// one.
+    ///
+    /// # Errors
+    /// A checkpoint that is not of this plan; nothing has been done then.
+    pub(in crate::solve) fn go(
+        &self,
+        threads: usize,
+        observer: &mut (dyn Observer + Send),
+        from: Option<&Checkpoint<'_>>,
+    ) -> Result<Record<SolveError>, SolveError> {
         let begin = Instant::now();
         let threads = if self.gap.len() < SHARED { 1 } else { threads };
         let geometry = self.geometry();
@@ -72,12 +94,24 @@ impl<'p> Coupled<'p> {
             start_pressure: Vec::new(),
             snapshot_told: false,
             pressed: None,
+            place: Place::START,
+            asides: Vec::new(),
+            spent: Cost::default(),
+            begin,
+            leaving: None,
         };
-        let mut system = None;
+        let (mut system, mut refused) = (None, None);
         let end = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
             Ok(pool) => pool.install(|| {
                 let system = system.insert(self.system(pool.current_num_threads()));
+                if let Some(from) = from
+                    && let Err(error) = going.take_up(system, self.plan, from)
+                {
+                    refused = Some(error);
+                    return End::Interrupted;
+                }
                 let left = self.blocks(system, &mut going);
+                going.offer(system, self.evaluator, true);
                 going.finish(system);
                 match left {
                     Ok(()) => End::Done,
@@ -88,7 +122,10 @@ impl<'p> Coupled<'p> {
             }),
             Err(error) => End::Failed(SolveError::Threads { threads, text: error.to_string() }),
         };
-        for warning in self.evaluator.take_warnings() {
+        if let Some(error) = refused {
+            return Err(error.into());
+        }
+        for warning in std::mem::take(&mut going.asides).into_iter().chain(self.evaluator.take_warnings()) {
             going.warn(warning);
         }
         if going.replaced > 0 {
@@ -99,28 +136,17 @@ impl<'p> Coupled<'p> {
         }
         let mut system = system.unwrap_or_else(|| self.system(1));
         let size = norm(going.stepper.wear.iter().copied());
+        let cost = going.cost(&system);
         let Going { stepper, history, warnings, units, start_pressure, .. } = going;
         let none = vec![0.0; self.gap.len()];
         let profile = line.map(|line| {
             line.profile(&units, [&start_pressure[..], &system.pressure[..], &none[..], &stepper.wear[..]])
         });
         let estimated = self.plan.tolerance.is_some();
-        Record {
+        Ok(Record {
             estimated_error: (estimated && size > 0.0).then(|| going.control.error / size),
             largest_step: going.longest,
-            cost: Cost {
-                run_time_s: begin.elapsed().as_secs_f64(),
-                law_time_s: system.law.law_time.as_secs_f64(),
-                contact_time_s: system.work.time.as_secs_f64(),
-                steps: going.steps,
-                rejected_steps: going.rejected,
-                law_calls: system.law.law_calls,
-                points_evaluated: system.law.points_evaluated,
-                contact_solves: system.work.solves,
-                contact_iterations: system.work.iterations,
-                fft_pairs: system.work.fft_pairs,
-                peak_memory_bytes: peak_memory(),
-            },
+            cost,
             history,
             wear: stepper.wear,
             pressure: std::mem::take(&mut system.pressure),
@@ -131,92 +157,53 @@ impl<'p> Coupled<'p> {
             geometry,
             units,
             end,
-        }
+        })
     }
 
-    fn blocks(&self, system: &mut System<'p>, going: &mut Going<'_>) -> Result<(), Leave> {
-        let mut number = 0;
-        for block in &self.plan.blocks {
-            let cbcs = block.cycle && self.plan.material.scaling.kind == ScalingKind::Cycle;
-            let (mut done, mut scale) = (0.0, 1.0);
-            let count = block.count as f64;
-            while done < count {
-                // The last scaled cycle is cut to land on the count.
-                let rest: f64 = count - done;
-                scale = rest.min(scale);
-                let before = going.clock.cycles;
-                let mut change = 0.0;
-                for (index, step) in block.steps.iter().enumerate() {
-                    let step = if done == 0.0 && index == 0 { &block.entry } else { step };
-                    let segment = Segment {
-                        step,
-                        start: going.clock.simulated,
-                        length: step.duration.unwrap_or(0.0),
-                        represented: going.clock.represented,
-                        scale,
-                        number: number + index as i64 + 1,
-                        cycle: if block.cycle { (before + 1.0) as i64 } else { 0 },
-                    };
-                    let period: f64 = block.steps.iter().filter_map(|step| step.duration).sum();
-                    let per_time = if block.cycle && period > 0.0 { scale / period } else { 0.0 };
-                    change += self.segment(system, going, segment, per_time)?;
-                }
-                if block.cycle {
-                    done += scale;
-                    going.clock.cycles = before + scale;
-                    if cbcs {
-                        scale = self.plan.material.scaling.factor(change / scale);
-                    }
-                } else {
-                    done += 1.0;
-                }
-            }
-            number += block.steps.len() as i64;
-        }
-        Ok(())
-    }
-
-    /// Goes through one load step; gives the relative change of pressure that its wear made, where scaling wants it.
-    fn segment(
+    /// Goes through one load step from `going.place` on; sums up there the relative change of pressure that its wear makes,
+    /// where scaling wants it.
+    pub(super) fn segment(
         &self,
         system: &mut System<'p>,
         going: &mut Going<'_>,
         segment: Segment<'p>,
         cycles_per_time: f64,
-    ) -> Result<f64, Leave> {
+    ) -> Result<(), Leave> {
         let scaling = self.plan.material.scaling.kind;
         system.slides = self.slides(segment.step)?;
-        self.press_start(system, going, &segment)?;
-        if scaling == ScalingKind::Auto {
-            return self.stretched(system, going, segment, cycles_per_time).map(|()| 0.0);
+        if !going.place.entered {
+            self.press_start(system, going, &segment)?;
+            going.place.entered = true;
         }
-        let mut change = 0.0;
-        let mut at = segment.start;
-        let mut number = 0;
+        if scaling == ScalingKind::Auto {
+            return self.stretched(system, going, segment, cycles_per_time);
+        }
         for until in segment.cuts(self.plan) {
             let idle = Stepper::is_idle(system, &segment);
-            if self.plan.tolerance.is_some() && !idle {
+            if self.plan.tolerance.is_some() && !idle && going.place.at < until {
                 let pressed = (scaling == ScalingKind::Cycle).then(|| going.stepper.moment(system));
-                number = self.controlled(system, going, segment, (at, until, number), cycles_per_time)?;
-                at = until;
+                self.controlled(system, going, segment, until, cycles_per_time)?;
                 if let Some(before) = pressed {
-                    change += self.change(system, before.pressed(), &segment, at)?;
+                    going.place.change += self.change(system, before.pressed(), &segment, going.place.at)?;
                 }
+                going.settle(system, self.evaluator)?;
             }
-            while at < until {
-                number += 1;
+            while going.place.at < until {
+                let (at, number) = (going.place.at, going.place.number + 1);
                 let length =
                     self.step(system, going, (segment, Reach { start: at, until, number }), cycles_per_time)?;
-                at = if length >= until - at { until } else { at + length };
+                going.place.at = if length >= until - at { until } else { at + length };
+                going.place.number = number;
                 if scaling == ScalingKind::Cycle {
                     let before = going.stepper.before();
-                    change += self.change(system, before, &segment, at)?;
+                    going.place.change += self.change(system, before, &segment, going.place.at)?;
                 }
+                going.settle(system, self.evaluator)?;
             }
         }
         going.clock.simulated = segment.end();
         going.clock.represented = segment.represented_at(segment.end());
-        Ok(change)
+        Ok(())
     }
 
     /// Goes through a load step of constant loading in substeps of one simulated length, each of which stands for as many
@@ -229,21 +216,23 @@ impl<'p> Coupled<'p> {
         cycles_per_time: f64,
     ) -> Result<(), Leave> {
         let unscaled = segment.length / self.plan.substeps.unwrap_or(1) as f64;
-        let (mut at, mut represented) = (segment.start, segment.represented);
-        let (mut number, mut stretch) = (0, 1.0);
         for until in segment.events(self.plan) {
-            while represented < until {
-                number += 1;
+            while going.clock.represented < until {
+                let (at, represented) = (going.place.at, going.clock.represented);
                 let left = (until - represented) / unscaled;
+                let stretch = going.place.stretch;
                 let scale = if stretch >= left * (1.0 - 1e-12) { left } else { stretch };
                 let piece = Segment { start: at, length: unscaled, represented, scale, ..segment };
-                let reach = Reach { start: at, until: at + unscaled, number };
-                self.step(system, going, (piece, reach), cycles_per_time)?;
-                at += unscaled;
-                represented = if scale == left { until } else { represented + scale * unscaled };
-                going.clock.represented = represented;
-                stretch =
-                    self.plan.material.scaling.factor(self.change(system, going.stepper.before(), &piece, at)? / scale);
+                let reach = Reach { start: at, until: at + unscaled, number: going.place.number + 1 };
+                let length = self.step(system, going, (piece, reach), cycles_per_time)?;
+                going.place.at = if length >= unscaled { at + unscaled } else { at + length };
+                going.place.number += 1;
+                if length >= unscaled {
+                    going.clock.represented = if scale == left { until } else { represented + scale * unscaled };
+                }
+                let change = self.change(system, going.stepper.before(), &piece, going.place.at)?;
+                going.place.stretch = self.plan.material.scaling.factor(change / scale);
+                going.settle(system, self.evaluator)?;
             }
         }
         Ok(())
@@ -271,7 +260,7 @@ impl<'p> Coupled<'p> {
         let at = if whole { reach.until } else { reach.start + accepted.length };
         going.moved(&segment, accepted.length, at, cycles_per_time);
         let row = rows::row(system, &going.stepper.wear, &going.clock, accepted.length * segment.scale, segment.scale);
-        going.tell(system, &segment, &accepted, row, whole)?;
+        going.tell(system, &segment, &accepted, row, whole);
         Ok(accepted.length)
     }
 
@@ -292,7 +281,12 @@ impl<'p> Coupled<'p> {
                 time: segment.represented,
                 source: Box::new(source.into()),
             };
-            system.press(driven.control, &going.stepper.wear).map_err(advance)?;
+            let before = (system.pressure.clone(), system.solution);
+            if let Err(source) = system.press(driven.control, &going.stepper.wear) {
+                system.go_back(&before.0);
+                system.solution = before.1;
+                return Err(advance(source).into());
+            }
         }
         (going.stepper.fresh, going.stepper.known) = (false, false);
         going.clock.temperature = driven.temperature;

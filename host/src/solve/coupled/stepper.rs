@@ -26,6 +26,7 @@ pub(super) struct Stepper {
     stages: Stages,
     end: Vec<f64>,
     pub(super) start_pressure: Vec<f64>,
+    start_solution: Solution,
     /// Whether `stages.start` is the rate at the start of the next step.
     pub(super) fresh: bool,
     /// Whether `stages.start` is a rate of this stretch of loading at all.
@@ -72,10 +73,21 @@ impl Stepper {
             stages: Stages::new(cells),
             end: vec![0.0; cells],
             start_pressure: vec![0.0; cells],
+            start_solution: Solution::default(),
             fresh: false,
             known: false,
             smallest,
         }
+    }
+
+    /// The rate at the start of the next step, where it is fresh.
+    pub(super) fn rate(&self) -> &[f64] {
+        &self.stages.start
+    }
+
+    /// The same, to be taken up from elsewhere.
+    pub(super) fn rate_mut(&mut self) -> &mut [f64] {
+        &mut self.stages.start
     }
 
     /// The present moment.
@@ -107,7 +119,7 @@ impl Stepper {
     }
 
     /// Takes one step, as far as `reach` tells or the law wishes, and commits wear, state variables and sliding distances
-    /// at its end.
+    /// at its end. After an error everything is as at its start.
     ///
     /// # Errors
     /// A law or a contact that fails, a wish for a step that is too short.
@@ -118,6 +130,27 @@ impl Stepper {
         reach: Reach,
     ) -> Result<Accepted, AdvanceError<PointError>> {
         self.start_pressure.copy_from_slice(&system.pressure);
+        self.start_solution = system.solution;
+        let advanced = self.attempts(system, segment, reach);
+        if advanced.is_err() {
+            self.go_back(system);
+        }
+        advanced
+    }
+
+    /// Takes up the contact at the start of the step again.
+    fn go_back(&self, system: &mut System<'_>) {
+        system.go_back(&self.start_pressure);
+        system.solution = self.start_solution;
+    }
+
+    /// Tries one step, shorter ones where the law wishes, and commits what it came to.
+    fn attempts<'s>(
+        &mut self,
+        system: &mut System<'s>,
+        segment: Segment<'s>,
+        reach: Reach,
+    ) -> Result<Accepted, AdvanceError<PointError>> {
         System::list(&mut system.closed, &self.start_pressure, false);
         if system.plan.fields.contains(Field::AccumulatedWear) {
             system.remembered_wear.clone_from(&self.wear);
@@ -145,7 +178,7 @@ impl Stepper {
                 let (time, asked) = (segment.represented_at(reach.start), accepted.length * segment.scale);
                 return Err(system.law.short_step(&law, time, asked, self.smallest).into());
             }
-            system.go_back(&self.start_pressure);
+            self.go_back(system);
         }
         accepted.change = match self.known {
             true => {
@@ -258,7 +291,11 @@ impl Stepper {
         system.substep = Substep { segment, start: reach.start, dt: length * segment.scale, number: reach.number };
         let (from, to) = (segment.at(reach.start).control, segment.at(reach.until).control);
         if from != to {
-            system.press(to, &self.wear)?;
+            self.start_solution = system.solution;
+            if let Err(error) = system.press(to, &self.wear) {
+                self.go_back(system);
+                return Err(error.into());
+            }
         }
         self.fresh = false;
         Ok(Accepted { length, ..Accepted::default() })
