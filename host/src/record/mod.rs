@@ -17,5 +17,5 @@ pub use field::{Field, FieldData, Snapshot};
 pub use geometry::{Geometry, Grid, PointIds, Points};
 pub use history::{History, HistoryRow};
 pub use profile::{Line, Profile};
-pub use run::{Cost, End, MemoryLine, Record};
+pub use run::{Cost, End, MemoryLine, Record, Stability};
 pub use units::Units;

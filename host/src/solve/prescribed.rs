@@ -8,7 +8,7 @@ use crate::integrator::substeps::Control;
 use crate::integrator::{Tally, norm};
 use crate::law::{Evaluator, OutputItem};
 use crate::plan::{Advance, FieldKind, Plan, ReferencePlan};
-use crate::record::{self, Cost, End, Event, HistoryRow, Line, MemoryLine, Nobody, Observer, Record, Wish};
+use crate::record::{self, Cost, End, Event, HistoryRow, Line, MemoryLine, Nobody, Observer, Record, Stability, Wish};
 use crate::scene::Every;
 use crate::solve::chunk::SCANNED_POINTS;
 use crate::solve::ending::{peak_memory, stop_reached};
@@ -192,6 +192,10 @@ impl<'p> Prescribed<'p> {
             state: going.arrays.state,
             memory: self.memory(),
             warnings: going.warnings,
+            stability: Stability {
+                verdict: "a prescribed pressure has no stability limit".to_owned(),
+                ..Stability::default()
+            },
             profile,
             geometry,
             units,

@@ -20,7 +20,7 @@ use crate::solve::{PointError, SolveError};
 /// Steps of the first pass over the first stretch.
 const FIRST_STEPS: u64 = 4;
 /// Most steps of a pass.
-const MOST_STEPS: u64 = 1 << 22;
+pub(super) const MOST_STEPS: u64 = 1 << 22;
 /// Order at which the difference of two passes is assumed to fall: below the formulas' own, because of moving edges.
 const ORDER: f64 = 0.75;
 /// Largest factor between the steps of two passes.
@@ -76,7 +76,7 @@ impl<'p> Coupled<'p> {
     ) -> Result<i64, Leave> {
         let begin = going.stepper.moment(system);
         let mut coarse: Option<Pass> = None;
-        let mut steps = going.control.steps;
+        let mut steps = self.fewest_steps(system, going, &segment, (start, until, number))?.max(going.control.steps);
         let mut failures = 0;
         loop {
             going.stepper.return_to(system, &begin);

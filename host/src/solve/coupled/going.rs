@@ -1,15 +1,17 @@
 //! What changes from step to step of a run, and what is told of it.
 
 use super::controlled::Control;
+use super::limit::Watch;
 use super::rows::{self, Clock};
 use super::segment::Segment;
 use super::stepper::{Accepted, Stepper};
 use super::system::System;
 use crate::contact::Control as Pressing;
+use crate::plan::{Block, Plan};
 use crate::record::{self, Event, HistoryRow, Observer, Wish};
 use crate::scene::Every;
-use crate::solve::SolveError;
 use crate::solve::ending::stop_reached;
+use crate::solve::{SolveError, fields};
 
 /// What changes from step to step.
 pub(super) struct Going<'o> {
@@ -29,6 +31,8 @@ pub(super) struct Going<'o> {
     pub(super) snapshot_told: bool,
     /// What presses at the end of the last step.
     pub(super) pressed: Option<Pressing>,
+    /// The stability limit of explicit steps.
+    pub(super) watch: Watch,
 }
 
 /// Why the loop ends early.
@@ -44,7 +48,30 @@ impl From<SolveError> for Leave {
     }
 }
 
-impl Going<'_> {
+impl<'o> Going<'o> {
+    /// Before the first step of a plan over this many cells.
+    pub(super) fn new(plan: &Plan, cells: usize, observer: &'o mut (dyn Observer + Send)) -> Going<'o> {
+        let count = |block: &Block| block.count as f64 * block.steps.iter().filter_map(|s| s.duration).sum::<f64>();
+        Going {
+            stepper: Stepper::new(cells, plan.smallest_step),
+            clock: Clock::default(),
+            history: record::History::default(),
+            steps: 0,
+            rejected: 0,
+            replaced: 0,
+            control: Control::new(),
+            longest: 0.0,
+            warnings: Vec::new(),
+            observer,
+            units: fields::units(plan),
+            total: plan.blocks.iter().map(count).sum(),
+            start_pressure: Vec::new(),
+            snapshot_told: false,
+            pressed: None,
+            watch: Watch::default(),
+        }
+    }
+
     pub(super) fn warn(&mut self, warning: String) {
         if !self.warnings.contains(&warning) {
             self.observer.observe(Event::Warning(&warning));

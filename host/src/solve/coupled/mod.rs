@@ -8,6 +8,7 @@ mod averaged;
 mod controlled;
 mod going;
 mod law_points;
+mod limit;
 mod newton;
 mod proportional;
 mod reference;

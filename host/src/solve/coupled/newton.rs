@@ -108,6 +108,11 @@ impl System<'_> {
     /// Increments and slopes of the law at the points of linearisation, for the cells under pressure there.
     fn linearise(&mut self, driven: Driven, point: &[f64], open: bool) -> Result<Reply, PointError> {
         Self::list(&mut self.room.cells, point, open);
+        self.linearise_listed(driven, point)
+    }
+
+    /// Increments and slopes of the law at the cells in `room.cells` under pressures `[cells]`.
+    pub(super) fn linearise_listed(&mut self, driven: Driven, point: &[f64]) -> Result<Reply, PointError> {
         if self.solved.scheme.slope == Slope::Derivative {
             if let cut @ Reply::Cut(_) = self.evaluate(driven, point, true)? {
                 return Ok(cut);
@@ -182,7 +187,7 @@ impl System<'_> {
             let line = line[cell] + diagonal[cell] * driving;
             let share = pressure.max(if pressure > 0.0 { 0.0 } else { point[cell] }) / largest;
             sum += share * (law - line).abs();
-            weight += pressure / largest;
+            weight += pressure.max(0.0) / largest;
         }
         if weight > 0.0 { sum / weight / self.gap_scale } else { 0.0 }
     }

@@ -2,9 +2,8 @@
 
 use std::time::Instant;
 
-use super::controlled::Control;
 use super::going::{Going, Leave};
-use super::rows::{self, Clock};
+use super::rows;
 use super::segment::Segment;
 use super::stepper::{Reach, Stepper};
 use super::system::{Room, Substep, System, Work};
@@ -14,11 +13,11 @@ use crate::contact::surface::{height_map, std_of_gap};
 use crate::contact::{ContactModel, Solution};
 use crate::integrator::{Formula, Stages, norm};
 use crate::law::{Evaluator, Field};
-use crate::plan::{Block, Elastic, LoadStep, Plan, SolvedPlan};
+use crate::plan::{Elastic, LoadStep, Plan, SolvedPlan};
 use crate::record::{self, Cost, End, Line, MemoryLine, Observer, Record};
 use crate::scene::ScalingKind;
+use crate::solve::SolveError;
 use crate::solve::ending::peak_memory;
-use crate::solve::{SolveError, fields};
 
 /// Cells below which more threads than one cost more than they give.
 const SHARED: usize = 512 * 512;
@@ -106,7 +105,7 @@ impl<'p> Coupled<'p> {
         }
     }
 
-    fn system(&self, threads: usize) -> System<'p> {
+    pub(super) fn system(&self, threads: usize) -> System<'p> {
         let cells = self.gap.len();
         let first = self.plan.blocks.first().and_then(|block| block.steps.first());
         let segment = Segment {
@@ -139,12 +138,13 @@ impl<'p> Coupled<'p> {
             end_state: self.plan.initial_state.repeat(cells),
             work: Work::default(),
             room: Room::default(),
+            frozen: None,
             steady: None,
         }
     }
 
     /// Relative velocities of the cells in a load step; empty where all slide alike.
-    fn slides(&self, step: &LoadStep) -> Result<Vec<f64>, SolveError> {
+    pub(super) fn slides(&self, step: &LoadStep) -> Result<Vec<f64>, SolveError> {
         let stick = step.stick.filter(|stick| *stick > 0.0);
         let mut slides = match (step.velocity_file, stick) {
             (Some(file), _) => self.velocities[file].clone(),
@@ -168,24 +168,7 @@ impl<'p> Coupled<'p> {
         let threads = if self.gap.len() < SHARED { 1 } else { threads };
         let geometry = self.geometry();
         let line = Line::of(&geometry);
-        let count = |block: &Block| block.count as f64 * block.steps.iter().filter_map(|s| s.duration).sum::<f64>();
-        let mut going = Going {
-            stepper: Stepper::new(self.gap.len(), self.plan.smallest_step),
-            clock: Clock::default(),
-            history: record::History::default(),
-            steps: 0,
-            rejected: 0,
-            replaced: 0,
-            control: Control::new(),
-            longest: 0.0,
-            warnings: Vec::new(),
-            observer,
-            units: fields::units(self.plan),
-            total: self.plan.blocks.iter().map(count).sum(),
-            start_pressure: Vec::new(),
-            snapshot_told: false,
-            pressed: None,
-        };
+        let mut going = Going::new(self.plan, self.gap.len(), observer);
         let mut system = None;
         let end = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
             Ok(pool) => pool.install(|| {
@@ -212,6 +195,7 @@ impl<'p> Coupled<'p> {
         }
         let mut system = system.unwrap_or_else(|| self.system(1));
         let size = norm(going.stepper.wear.iter().copied());
+        let stability = going.watch.told(self, going.steps);
         let Going { stepper, history, warnings, units, start_pressure, .. } = going;
         let none = vec![0.0; self.gap.len()];
         let profile = line.map(|line| {
@@ -240,6 +224,7 @@ impl<'p> Coupled<'p> {
             state: std::mem::take(&mut system.state),
             memory: self.memory(),
             warnings,
+            stability,
             profile,
             geometry,
             units,
@@ -247,7 +232,7 @@ impl<'p> Coupled<'p> {
         }
     }
 
-    fn blocks(&self, system: &mut System<'p>, going: &mut Going<'_>) -> Result<(), Leave> {
+    pub(super) fn blocks(&self, system: &mut System<'p>, going: &mut Going<'_>) -> Result<(), Leave> {
         let mut number = 0;
         for block in &self.plan.blocks {
             let cbcs = block.cycle && self.plan.material.scaling.kind == ScalingKind::Cycle;
@@ -318,8 +303,9 @@ impl<'p> Coupled<'p> {
             }
             while at < until {
                 number += 1;
-                let length =
-                    self.step(system, going, (segment, Reach { start: at, until, number }), cycles_per_time)?;
+                let end = self.within_limit(system, going, &segment, (at, until, number))?;
+                let reach = Reach { start: at, until: end, number };
+                let length = self.step(system, going, (segment, reach), cycles_per_time)?;
                 at = if length >= until - at { until } else { at + length };
                 if scaling == ScalingKind::Cycle {
                     let before = going.stepper.before();
@@ -349,7 +335,10 @@ impl<'p> Coupled<'p> {
                 number += 1;
                 let left = (until - represented) / unscaled;
                 let scale = if stretch >= left * (1.0 - 1e-12) { left } else { stretch };
-                let piece = Segment { start: at, length: unscaled, represented, scale, ..segment };
+                let mut piece = Segment { start: at, length: unscaled, represented, scale, ..segment };
+                let end = self.within_limit(system, going, &piece, (at, at + unscaled, number))?;
+                let scale = scale * ((end - at) / unscaled).min(1.0);
+                piece.scale = scale;
                 let reach = Reach { start: at, until: at + unscaled, number };
                 self.step(system, going, (piece, reach), cycles_per_time)?;
                 at += unscaled;
