@@ -17,6 +17,7 @@ mod opening;
 mod plan;
 mod progress;
 mod run;
+mod stability;
 mod summary;
 mod table;
 mod unit_text;
@@ -55,6 +56,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
     match command {
         Command::Run(arguments) => run::command(console, arguments),
+        Command::Stability(arguments) => stability::command(console, arguments),
         Command::Plan(arguments) => plan::command(console, arguments),
         Command::Build(arguments) => build::command(console, &arguments),
         Command::New(arguments) => new::command(console, &arguments),

@@ -7,9 +7,11 @@
 mod averaged;
 mod controlled;
 mod going;
+mod ladder;
 mod law_points;
 mod limit;
 mod newton;
+mod present;
 mod proportional;
 mod reference;
 mod rows;
@@ -17,5 +19,6 @@ mod run;
 mod segment;
 mod stepper;
 mod system;
+mod trial;
 
 pub(super) use run::Coupled;

@@ -27,7 +27,7 @@ pub(in crate::solve) struct Coupled<'p> {
     pub(in crate::solve) plan: &'p Plan,
     pub(in crate::solve) solved: &'p SolvedPlan,
     pub(in crate::solve) evaluator: &'p dyn Evaluator,
-    gap: Vec<f64>,
+    pub(super) gap: Vec<f64>,
     velocities: Vec<Vec<f64>>,
 }
 
@@ -45,6 +45,14 @@ impl<'p> Coupled<'p> {
         let read = |path: &std::path::PathBuf| height_map::read(path, &solved.cells);
         let velocities = solved.velocity_files.iter().map(read).collect::<Result<_, _>>()?;
         Ok(Coupled { plan, solved, evaluator, gap, velocities })
+    }
+
+    /// The same surface and velocities under another plan.
+    pub(super) fn with<'q>(&self, plan: &'q Plan, solved: &'q SolvedPlan) -> Coupled<'q>
+    where
+        'p: 'q,
+    {
+        Coupled { plan, solved, evaluator: self.evaluator, gap: self.gap.clone(), velocities: self.velocities.clone() }
     }
 
     pub(in crate::solve) fn points(&self) -> usize {
@@ -378,7 +386,12 @@ impl<'p> Coupled<'p> {
     }
 
     /// Brings the contact to what presses at the start of a load step, if that differs from the end of the one before.
-    fn press_start(&self, system: &mut System<'p>, going: &mut Going<'_>, segment: &Segment<'p>) -> Result<(), Leave> {
+    pub(super) fn press_start(
+        &self,
+        system: &mut System<'p>,
+        going: &mut Going<'_>,
+        segment: &Segment<'p>,
+    ) -> Result<(), Leave> {
         system.substep = Substep { segment: *segment, start: segment.start, dt: segment.length, number: 1 };
         let driven = segment.at(segment.start);
         let first = going.history.rows.is_empty();
