@@ -11,6 +11,9 @@ use crate::contact::Cells;
 /// Relative roughness from which a pressure is rough in any case; a chequerboard of amplitude a on the mean has 4 a in
 /// 2-D and 8 a in 3-D.
 pub const ROUGH: f64 = 0.5;
+/// Amplitude of the ripple, over that at the start, from which it grows; the rest is what the filter leaves of the
+/// smooth part.
+pub const GROWS: f64 = 1.02;
 /// Part of the largest pressure below which a negative one is an error of the contact solve.
 pub const NEGATIVE: f64 = 1e-4;
 /// Wear over what can be reached, from which a point is over-worn: the rest is the tolerance of the contact solves.
@@ -31,28 +34,72 @@ pub fn interior(cells: &Cells, set: &[bool]) -> Vec<u32> {
     (0..nx * ny).filter(inside).map(|cell| cell as u32).collect()
 }
 
+/// Sums over the axes of the second differences at these inner cells, zero elsewhere `[cells]`.
+#[must_use]
+pub fn bends(cells: &Cells, inner: &[u32], values: &[f64]) -> Vec<f64> {
+    let nx = cells.counts[0];
+    let mut bends = vec![0.0; values.len()];
+    for cell in inner {
+        let at = *cell as usize;
+        bends[at] = values[at - 1] + values[at + 1] - 2.0 * values[at];
+        if cells.dimension != 2 {
+            bends[at] += values[at - nx] + values[at + nx] - 2.0 * values[at];
+        }
+    }
+    bends
+}
+
+/// The amplitude of one mode in a pressure, smooth changes of the pressure filtered out: a mode that decays fast alternates
+/// from cell to cell, and second differences of second differences leave next to nothing of what does not.
+#[derive(Clone, Debug, Default)]
+pub struct Ripple {
+    inner: Vec<u32>,
+    deep: Vec<u32>,
+    weights: Vec<f64>,
+}
+
+impl Ripple {
+    /// For the mode `pattern` `[cells]` on a contact set; its own amplitude is 1.
+    #[must_use]
+    pub fn new(cells: &Cells, set: &[bool], pattern: &[f64]) -> Ripple {
+        let mask = |inner: &[u32]| {
+            let mut mask = vec![false; set.len()];
+            inner.iter().for_each(|cell| mask[*cell as usize] = true);
+            mask
+        };
+        let inner = interior(cells, set);
+        let deep = interior(cells, &mask(&interior(cells, &mask(&inner))));
+        let mut ripple = Ripple { inner, deep, weights: Vec::new() };
+        let weights = ripple.filtered(cells, pattern);
+        let square: f64 = weights.iter().map(|weight| weight * weight).sum();
+        if square > 0.0 {
+            ripple.weights = weights.iter().map(|weight| weight / square).collect();
+        }
+        ripple
+    }
+
+    fn filtered(&self, cells: &Cells, values: &[f64]) -> Vec<f64> {
+        bends(cells, &self.deep, &bends(cells, &self.inner, values))
+    }
+
+    /// The amplitude in a pressure; 0 where the contact is too small to tell a mode from its edge.
+    #[must_use]
+    pub fn amplitude(&self, cells: &Cells, pressure: &[f64]) -> f64 {
+        self.filtered(cells, pressure).iter().zip(&self.weights).map(|(bend, weight)| bend * weight).sum()
+    }
+}
+
 /// Second differences of the pressure at these inner cells, over the pressure there, both as L2 norms; `floor` is a
 /// pressure that stands in for the mean square where there is less, so that what is all but gone is not called rough.
 #[must_use]
 pub fn roughness(cells: &Cells, inner: &[u32], pressure: &[f64], floor: f64) -> f64 {
-    let nx = cells.counts[0];
     let unit = inner.iter().fold(floor.abs(), |most: f64, cell| most.max(pressure[*cell as usize].abs()));
     if unit == 0.0 || inner.is_empty() {
         return 0.0;
     }
-    let (mut bends, mut size) = (0.0, 0.0);
-    for cell in inner {
-        let at = *cell as usize;
-        let p = |cell: usize| pressure[cell] / unit;
-        let mut bend = p(at - 1) + p(at + 1) - 2.0 * p(at);
-        if cells.dimension != 2 {
-            bend += p(at - nx) + p(at + nx) - 2.0 * p(at);
-        }
-        bends += bend * bend;
-        size += p(at) * p(at);
-    }
+    let square = |values: &[f64]| inner.iter().map(|cell| (values[*cell as usize] / unit).powi(2)).sum::<f64>();
     let least = (floor / unit).powi(2) * inner.len() as f64;
-    (bends / size.max(least)).sqrt()
+    (square(&bends(cells, inner, pressure)) / square(pressure).max(least)).sqrt()
 }
 
 /// What was seen after the steps; pressures relative to the largest at their start.
@@ -115,7 +162,7 @@ impl Seen {
             return vec![Fault::Diverged];
         }
         let mut faults = Vec::new();
-        if self.roughness > ROUGH || self.ripple > 1.0 {
+        if self.roughness > ROUGH || self.ripple > GROWS {
             faults.push(Fault::Rough);
         }
         if self.lowest_pressure < -NEGATIVE {
@@ -150,6 +197,25 @@ mod tests {
             // What is all but gone is measured with what there was.
             assert!(roughness(&cells, &inner, &chequered, 1e13) < 1e-4);
         }
+    }
+
+    #[test]
+    fn a_ripple_is_seen_on_a_pressure_that_changes() {
+        let cells = Cells { dimension: 3, counts: [24, 24], spacing: [1.0, 1.0] };
+        let square = |k: usize| ((k % 24) as f64 - 11.5).powi(2) + ((k / 24) as f64 - 11.5).powi(2);
+        let set: Vec<bool> = (0..576).map(|k| square(k) < 100.0).collect();
+        let sign = |k: usize| if (k % 24 + k / 24).is_multiple_of(2) { 1.0 } else { -1.0 };
+        let mode: Vec<f64> =
+            (0..576).map(|k| if set[k] { 0.01 * sign(k) * (1.0 - square(k) / 120.0) } else { 0.0 }).collect();
+        let ripple = Ripple::new(&cells, &set, &mode);
+        for (height, amplitude) in [(1.0, 1.0), (0.7, 0.3), (0.0, -2.0)] {
+            let hertz = |k: usize| height * (1.0 - square(k) / 100.0).max(0.0).sqrt();
+            let pressure: Vec<f64> = (0..576).map(|k| hertz(k) + amplitude * mode[k]).collect();
+            let found = ripple.amplitude(&cells, &pressure);
+            assert!((found - amplitude).abs() < 0.01, "{found} against {amplitude}");
+        }
+        let tiny = Ripple::new(&cells, &[true, true, true, false], &[1.0, -1.0, 1.0, 0.0]);
+        assert_eq!(tiny.amplitude(&cells, &[1.0, -1.0, 1.0, 0.0]), 0.0);
     }
 
     #[test]

@@ -170,8 +170,8 @@ impl Products<'_> {
             let residual = next * vector.last().copied().unwrap_or(0.0).abs();
             self.found.per_time = value;
             if residual <= RESIDUAL * value || matrix.size() >= MOST_ITERATIONS || matrix.size() >= v.len() {
-                if wants_mode {
-                    self.found.mode = combined(&basis, &vector);
+                if wants_mode && value > 0.0 {
+                    self.found.mode = self.cleaned(&combined(&basis, &vector))?;
                 }
                 return Ok(self.found);
             }
@@ -180,6 +180,17 @@ impl Products<'_> {
             scale(&mut v, 1.0 / next);
             scale(&mut y, 1.0 / next);
         }
+    }
+
+    /// One more product with D S: what S does not see, such as a constant under a given load, is no part of a mode.
+    fn cleaned(&mut self, mode: &[f64]) -> Result<Vec<f64>, ContactError> {
+        let pressed = self.pressed(mode)?;
+        let mut mode = self.worn(&pressed);
+        let largest = mode.iter().fold(0.0, |most: f64, x| if x.abs() > most.abs() { *x } else { most });
+        if largest != 0.0 {
+            scale(&mut mode, 1.0 / largest);
+        }
+        Ok(mode)
     }
 
     /// The start: signs that alternate from cell to cell, weighted by the slopes, which is near the mode that decays
@@ -195,15 +206,11 @@ impl Products<'_> {
     }
 }
 
-/// Sum of vectors by weights, its largest component 1.
+/// Sum of vectors by weights.
 fn combined(basis: &[Vec<f64>], weights: &[f64]) -> Vec<f64> {
     let mut mode = vec![0.0; basis.first().map_or(0, Vec::len)];
     for (vector, weight) in basis.iter().zip(weights) {
         mode.iter_mut().zip(vector).for_each(|(mode, x)| *mode += weight * x);
-    }
-    let largest = mode.iter().fold(0.0, |most: f64, x| if x.abs() > most.abs() { *x } else { most });
-    if largest != 0.0 {
-        scale(&mut mode, 1.0 / largest);
     }
     mode
 }

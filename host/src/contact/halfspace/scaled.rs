@@ -77,7 +77,9 @@ impl Scaled {
             (None, Control::Load(_)) => 0.0,
             (None, Control::Approach(approach)) => (approach - lowest).max(0.0),
         };
-        let unit = power_of_two((pressure / stiffness).max(pressing));
+        let size = (pressure / stiffness).max(pressing);
+        // Where the approach leaves everything open, the gaps themselves give the unit.
+        let unit = power_of_two(if size > 0.0 || !largest.is_finite() { size } else { largest });
         let units = Units { gap: unit, pressure: unit * stiffness };
         let scale = if problem.scale.is_finite() && problem.scale > 0.0 { problem.scale / unit } else { 0.0 };
         let local = match problem.diagonal {

@@ -150,10 +150,7 @@ impl<'p> Coupled<'p> {
             let best = if self.solved.scheme.rate { Formula::TrBdf2 } else { Formula::ImplicitEuler };
             let refined = self.moments(&start, how(best, true), &spans, goes_on);
             // Without anything to compare with there is nothing to say of any step.
-            let (refined, why) = match refined {
-                Ok(refined) => (refined, "the contact would reach the rim of the grid".to_owned()),
-                Err(error) => (Vec::new(), format!("the refined run failed: {error}")),
-            };
+            let (refined, why) = refined.unwrap_or_else(|error| (Vec::new(), error.to_string()));
             for (k, ratio) in RATIOS.into_iter().enumerate() {
                 let mut row = |method: &str, outcome: Outcome| {
                     ladder.rows.push(Row {

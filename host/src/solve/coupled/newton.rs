@@ -173,7 +173,7 @@ impl System<'_> {
         if largest == 0.0 {
             return 0.0;
         }
-        let (mut sum, mut weight) = (0.0, 0.0);
+        let (mut sum, mut weight, mut shares) = (0.0, 0.0, 0.0);
         let mut listed = self.room.cells.iter().enumerate().peekable();
         for cell in 0..point.len() {
             let found = listed.next_if(|(_, at)| **at as usize == cell);
@@ -188,7 +188,11 @@ impl System<'_> {
             let share = pressure.max(if pressure > 0.0 { 0.0 } else { point[cell] }) / largest;
             sum += share * (law - line).abs();
             weight += pressure.max(0.0) / largest;
+            shares += share;
         }
+        // Where the lines left no pressure at all, the points of linearisation are what is judged: the line of a concave
+        // law lies far above it on the way down to zero.
+        let weight = if weight > 0.0 { weight } else { shares };
         if weight > 0.0 { sum / weight / self.gap_scale } else { 0.0 }
     }
 }

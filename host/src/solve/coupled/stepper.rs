@@ -5,6 +5,7 @@ use super::system::{Substep, System};
 use crate::contact::Solution;
 use crate::integrator::{AdvanceError, Answering, Formula, Reply, Span, Stages, Tried};
 use crate::law::{Claim, Field};
+use crate::plan::Elastic;
 use crate::solve::PointError;
 
 /// What an accepted step came to.
@@ -24,6 +25,7 @@ pub(super) struct Stepper {
     stages: Stages,
     end: Vec<f64>,
     pub(super) start_pressure: Vec<f64>,
+    start_approach: f64,
     /// Whether `stages.start` is the rate at the start of the next step.
     pub(super) fresh: bool,
     /// Smallest represented step; 0: whatever numbers can tell apart.
@@ -70,6 +72,7 @@ impl Stepper {
             stages: Stages::new(cells),
             end: vec![0.0; cells],
             start_pressure: vec![0.0; cells],
+            start_approach: 0.0,
             fresh: false,
             smallest,
             guards: true,
@@ -116,6 +119,7 @@ impl Stepper {
         reach: Reach,
     ) -> Result<Accepted, AdvanceError<PointError>> {
         self.start_pressure.copy_from_slice(&system.pressure);
+        self.start_approach = system.solution.approach;
         System::list(&mut system.closed, &self.start_pressure, false);
         if system.plan.fields.contains(Field::AccumulatedWear) {
             system.remembered_wear.clone_from(&self.wear);
@@ -184,7 +188,9 @@ impl Stepper {
     }
 
     /// A second-order step that leaves open a point which was closed at its start stands only if a backward-Euler step leaves
-    /// it open too; otherwise backward Euler takes its place.
+    /// it open too, and if it has not worn that point deeper than the surfaces reach; otherwise backward Euler takes its
+    /// place. The second condition is for laws that wear a point to the end in finite time (m < 1): there both leave it
+    /// open, and only one of them where it was.
     ///
     /// No second-order method is positive at any step: at 1e6 times the limit, TR-BDF2 wears 3.5e5 times the gap that there
     /// is to wear.
@@ -200,14 +206,34 @@ impl Stepper {
         {
             return Ok(cut);
         }
-        let all = self.start_pressure.iter().zip(&second.2).zip(&system.pressure);
-        let both = |((start, second), first): ((&f64, &f64), &f64)| !(*start > 0.0 && *second <= 0.0) || *first <= 0.0;
-        if all.into_iter().all(both) {
+        let lifted = Self::lifted(system);
+        let opened = |cell: &usize| self.start_pressure[*cell] > 0.0 && second.2[*cell] <= 0.0;
+        let approach = self.start_approach.max(system.solution.approach);
+        let stands = |cell: usize| {
+            // Nothing wears deeper than the undeformed surface reaches, unless pressure elsewhere lifts it.
+            let reach = approach - system.initial_gap[cell] + lifted.get(cell).copied().unwrap_or(0.0);
+            system.pressure[cell] <= 0.0 && second.0[cell] <= reach.max(self.end[cell])
+        };
+        if (0..self.end.len()).filter(opened).all(stands) {
             (self.end, self.stages.end, system.pressure, system.solution) = second;
         } else {
             accepted.replaced = true;
         }
         Ok(Tried::Taken)
+    }
+
+    /// How far pressure lifts the surface above its unloaded level `[cells]`; empty where it cannot: on springs, and in 3-D
+    /// before a free boundary.
+    fn lifted(system: &mut System<'_>) -> Vec<f64> {
+        match system.solved.elastic {
+            Elastic::HalfSpace { periodic, .. } if periodic || system.solved.cells.dimension == 2 => {
+                let mut displaced = vec![0.0; system.pressure.len()];
+                system.model.displacement(&system.pressure, &mut displaced);
+                displaced.iter_mut().for_each(|u| *u = (-*u).max(0.0));
+                displaced
+            }
+            _ => Vec::new(),
+        }
     }
 
     /// Whether a point that was closed at the start of the step is open at its end.

@@ -11,7 +11,7 @@ use crate::contact::Control;
 use crate::integrator::{AdvanceError, Formula};
 use crate::plan::Elastic;
 use crate::solve::{PointError, SolveError};
-use crate::stability::judge::{Seen, interior, roughness};
+use crate::stability::judge::{Ripple, Seen, interior, roughness};
 
 /// Amplitude of the ripple that steps begin with, over the largest pressure.
 const RIPPLE: f64 = 0.01;
@@ -43,8 +43,7 @@ pub(super) struct Start<'a> {
     inner: Vec<u32>,
     /// Wear with a ripple of the mode that decays fastest.
     wear: Vec<f64>,
-    /// What a pressure is multiplied with to give the amplitude of that mode.
-    pattern: Vec<f64>,
+    ripple: Ripple,
     largest: f64,
     center: usize,
     stiffness: f64,
@@ -112,15 +111,13 @@ impl<'a> Start<'a> {
             true => present.wear.clone(),
             false => present.wear.iter().zip(mode).map(|(wear, v)| wear + amplitude * v).collect(),
         };
-        let square: f64 = pattern.iter().map(|p| amplitude * p * p).sum();
-        let pattern = pattern.iter().map(|p| if square > 0.0 { p / square } else { 0.0 }).collect();
-        Start { present, inner: interior(&run.solved.cells, &set), set, wear, pattern, largest, center, stiffness }
-    }
-
-    /// Amplitude of the ripple in a pressure, 1 at the start.
-    fn ripple(&self, pressure: &[f64]) -> f64 {
-        let change = pressure.iter().zip(&self.present.pressure).zip(&self.pattern);
-        change.map(|((p, start), pattern)| (p - start) * pattern).sum::<f64>().abs()
+        let pattern: Vec<f64> = pattern.iter().map(|p| amplitude * p).collect();
+        let cells = &run.solved.cells;
+        let ripple = match pattern.is_empty() {
+            true => Ripple::default(),
+            false => Ripple::new(cells, &set, &pattern),
+        };
+        Start { present, inner: interior(cells, &set), set, wear, ripple, largest, center, stiffness }
     }
 }
 
@@ -170,14 +167,14 @@ impl<'p> Coupled<'p> {
         })
     }
 
-    /// The refined run at the end of each of these spans of time, ascending, as far as it stays inside the grid.
+    /// The refined run at the end of each of these spans of time, ascending, and why there are no more of them.
     pub(super) fn moments(
         &self,
         start: &Start<'_>,
         how: How<'_>,
         spans: &[f64],
         goes_on: &dyn Fn() -> bool,
-    ) -> Result<Vec<Refined>, SolveError> {
+    ) -> Result<(Vec<Refined>, String), SolveError> {
         self.course(start, how, |course| {
             let mut moments = Vec::new();
             let mut dt = REFINED.0 / start.stiffness;
@@ -185,15 +182,17 @@ impl<'p> Coupled<'p> {
                 while course.at < *span {
                     // What would leave a sliver goes to the end at once.
                     let until = if course.at + 1.2 * dt >= *span { *span } else { course.at + dt };
-                    course.step(until)?;
+                    if let Err(error) = course.step(until) {
+                        return Ok((moments, format!("the refined run failed: {error}")));
+                    }
                     dt *= REFINED.1;
                     if course.is_outside() || !goes_on() {
-                        return Ok(moments);
+                        return Ok((moments, "the contact would reach the rim of the grid".to_owned()));
                     }
                 }
                 moments.push(Refined { wear: course.stepper.wear.clone(), pressure: course.system.pressure.clone() });
             }
-            Ok(moments)
+            Ok((moments, String::new()))
         })
     }
 
@@ -216,7 +215,7 @@ impl<'p> Coupled<'p> {
                 if course.is_outside() {
                     return Ok(Came::Outside);
                 }
-                ripple = ripple.max(start.ripple(&course.system.pressure));
+                ripple = ripple.max(start.ripple.amplitude(&cells, &course.system.pressure).abs());
                 if bends(&course.system.pressure) > before + BROKEN {
                     break;
                 }
