@@ -187,7 +187,7 @@ module wearlaw
   ! What `point` sees: only the fields that the law reads or uses are loaded, the others are not a number (indices: -1).
   integer, parameter :: WL_MOST_INPUTS = 16
   type :: wl_call
-    real(c_double) :: dt, time
+    real(c_double) :: dt, time, absolute_zero
     integer(c_int64_t) :: given ! bits of the fields in `uses` that are there
     type(c_ptr) :: view, instance ! the wl_view, for what is one value for the call: load_step, cycle, material ..
   end type wl_call

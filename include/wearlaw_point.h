@@ -153,6 +153,8 @@
 #endif
 #if defined(__clang__)
 #define WL_NO_OVERLAP _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__) && __GNUC__ >= 8 /* gcc leaves the loop at one vector a round, bound by its jumps */
+#define WL_NO_OVERLAP _Pragma("GCC ivdep") _Pragma("GCC unroll 2")
 #elif defined(__GNUC__)
 #define WL_NO_OVERLAP _Pragma("GCC ivdep")
 #else

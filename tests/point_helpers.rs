@@ -59,6 +59,7 @@ impl Case {
         let constants = [at(how.constant, 1)];
         let inputs = [at(how.scalar, 2), at(0, 3)];
         let mut v = view(n, 0.5);
+        v.absolute_zero = -273.15;
         v.constants = constants.as_ptr();
         v.constant_count = 1;
         v.inputs = inputs.as_ptr();
@@ -114,7 +115,7 @@ fn every_language_gives_the_same_bits_at_every_step_and_batch() {
         // By hand, at one point of the case.
         let i = 400;
         let x = |step: i64, offset: usize| case.values[offset + i * step as usize];
-        let scale = if optional { x(scalar, 6) } else { 3.0 };
+        let scale = if optional { x(scalar, 6) - -273.15 } else { 3.0 };
         let slope = x(constant, 1) * x(vector, 6) * x(scalar, 2) * x(0, 3) * scale;
         let slope = if case.states[i] == WL_OPEN { 0.0 } else { slope };
         assert_eq!(right.slope[i], slope);

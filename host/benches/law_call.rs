@@ -6,8 +6,10 @@
 
 mod support;
 
+use std::cell::{RefCell, RefMut};
 use std::hint::black_box;
 
+use support::placed::{Placed, Slices};
 use support::raw::{Columns, RawLaw};
 use support::timing::{Side, Times, columns, in_turns, is_measured, pool, triad_on};
 use support::{laws, scenes};
@@ -75,6 +77,10 @@ fn evaluate(law: &dyn Evaluator, batch: &Batch<'_>, w: &mut [f64]) {
     assert_eq!(answer, Ok(Evaluation::Good));
 }
 
+fn evaluate_again(calls: usize, law: &dyn Evaluator, batch: &Batch<'_>, w: &mut [f64]) {
+    (0..calls).for_each(|_| evaluate(law, batch, w));
+}
+
 /// Loaded laws against the loop inlined.
 fn calls(archard: &LawInstance, raw_archard: &RawLaw, c_library: &std::path::Path) {
     let (c, raw_c) = (laws::load(c_library), RawLaw::open(c_library));
@@ -86,26 +92,27 @@ fn calls(archard: &LawInstance, raw_archard: &RawLaw, c_library: &std::path::Pat
     println!("{:>8} {}", "points", names.map(|name| format!("{name:>17}")).join(" "));
     let sizes: &[usize] = if is_measured() { &[1, 8, 64, 1024, 4096, 1_000_000] } else { &[1, 8, 1025] };
     for &points in sizes {
-        let (p, v) = columns(points);
-        let mut w: [Vec<f64>; 7] = std::array::from_fn(|_| vec![0.0; points]);
+        let mut place = Placed::new(points);
+        let Slices { pressure: p, velocity: v, answer } = place.slices();
+        // One array for all: two that lie differently to what is read can differ by a third in time.
+        let w = RefCell::new(answer);
+        let w = || RefMut::map(w.borrow_mut(), |w| &mut **w);
         let (mine, theirs) = ([K, H], [K, H, 1.0, 1.0]);
-        let given = Columns { pressure: &p, velocity: &v, constants: &theirs, dt: DT };
-        let short = Columns { pressure: &p, velocity: &v, constants: &mine, dt: DT };
-        let batches = [archard, &c, &rust].map(|law| batch(law.descriptor(), &p, &v, (1.0, 1.0)));
-        let [w0, w1, w2, w3, w4, w5, w6] = &mut w;
+        let given = Columns { pressure: p, velocity: v, constants: &theirs, dt: DT };
+        let short = Columns { pressure: p, velocity: v, constants: &mine, dt: DT };
+        let batches = [archard, &c, &rust].map(|law| batch(law.descriptor(), p, v, (1.0, 1.0)));
         let mut sides: Vec<Side<'_>> = vec![
-            Box::new(|calls| inlined_again(calls, &p, &v, w0)),
-            Box::new(|calls| raw_archard.call(calls, &given, w1)),
-            Box::new(|calls| (0..calls).for_each(|_| evaluate(archard, &batches[0], w2))),
-            Box::new(|calls| raw_c.call(calls, &short, w3)),
-            Box::new(|calls| (0..calls).for_each(|_| evaluate(&c, &batches[1], w4))),
-            Box::new(|calls| raw_rust.call(calls, &short, w5)),
-            Box::new(|calls| (0..calls).for_each(|_| evaluate(&rust, &batches[2], w6))),
+            Box::new(|calls| inlined_again(calls, p, v, &mut w())),
+            Box::new(|calls| raw_archard.call(calls, &given, &mut w())),
+            Box::new(|calls| evaluate_again(calls, archard, &batches[0], &mut w())),
+            Box::new(|calls| raw_c.call(calls, &short, &mut w())),
+            Box::new(|calls| evaluate_again(calls, &c, &batches[1], &mut w())),
+            Box::new(|calls| raw_rust.call(calls, &short, &mut w())),
+            Box::new(|calls| evaluate_again(calls, &rust, &batches[2], &mut w())),
         ];
         let effort = if points < 64 { 20_000 * points } else { 1 << 19 };
         let rounds = if points > 100_000 { rounds / 4 + 1 } else { rounds };
         let times = in_turns(rounds, if is_measured() { (effort / points).max(1) } else { 1 }, &mut sides);
-        drop(sides);
         let base = times[0].least();
         let cell = |t: &Times| format!("{:>8.3} ({:>6.3})", t.least() * 1e9 / points as f64, t.least() / base);
         let row: Vec<String> = times.iter().map(cell).collect();
@@ -114,9 +121,15 @@ fn calls(archard: &LawInstance, raw_archard: &RawLaw, c_library: &std::path::Pat
             let more: Vec<String> = times.iter().map(|t| format!("{:>17.1}", (t.least() - base) * 1e9)).collect();
             println!("{:>8} {}", "more, ns", more.join(" "));
         }
-        for (k, other) in w.iter().enumerate().skip(1) {
+        let mut first = Vec::new();
+        for (side, name) in sides.iter_mut().zip(names) {
+            w().fill(f64::NAN);
+            side(1);
+            if first.is_empty() {
+                first = w().to_vec();
+            }
             let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-15 * a.abs();
-            assert!(w[0].iter().zip(other).all(near), "{} differs", names[k]);
+            assert!(first.iter().zip(w().iter()).all(near), "{name} differs");
         }
     }
 }

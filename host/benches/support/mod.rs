@@ -5,6 +5,7 @@
 #![allow(dead_code)] // no benchmark uses all of it
 
 pub mod laws;
+pub mod placed;
 pub mod raw;
 pub mod scenes;
 pub mod timing;

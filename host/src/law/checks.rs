@@ -17,7 +17,7 @@ pub(super) fn sweep(values: &[f64]) -> Sweep {
 }
 
 #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN is not finite; it is not negative too")]
-fn exact(values: &[f64]) -> Sweep {
+pub(super) fn exact(values: &[f64]) -> Sweep {
     values.iter().fold(Sweep { finite: true, non_negative: true }, |found, value| Sweep {
         finite: found.finite & value.is_finite(),
         non_negative: found.non_negative & (*value >= 0.0 || value.is_nan()),
@@ -56,15 +56,24 @@ fn plain_avx2(values: &[f64]) -> bool {
         }
     }
     let most = _mm256_max_epu32(_mm256_max_epu32(most[0], most[1]), _mm256_max_epu32(most[2], most[3]));
-    let most = _mm_max_epu32(_mm256_castsi256_si128(most), _mm256_extracti128_si256::<1>(most));
+    upper_halves_are_finite(most) && plain_lanes(rest)
+}
+
+/// Whether the upper half of each of four numbers is below that of infinity.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+#[inline]
+pub(super) fn upper_halves_are_finite(numbers: std::arch::x86_64::__m256i) -> bool {
+    use std::arch::x86_64::*;
+    let most = _mm_max_epu32(_mm256_castsi256_si128(numbers), _mm256_extracti128_si256::<1>(numbers));
     let most = _mm_max_epu32(most, _mm_shuffle_epi32::<0b01_00_11_10>(most));
     let infinite = (f64::INFINITY.to_bits() >> 32) as u32;
-    (_mm_extract_epi32::<1>(most) as u32) < infinite && plain_lanes(rest)
+    (_mm_extract_epi32::<1>(most) as u32) < infinite
 }
 
 /// A plain fold: whole numbers may be gathered in any order, so the compiler spreads it over lanes itself.
 #[inline(always)]
-fn plain_lanes(values: &[f64]) -> bool {
+pub(super) fn plain_lanes(values: &[f64]) -> bool {
     let all = values.iter().fold(0, |all, value| {
         let bits = value.to_bits();
         all | bits | bits.wrapping_add(EXPONENT_ONE)

@@ -2,30 +2,38 @@
 #![allow(unsafe_code)] // reason: hands raw arrays to a law.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
 use wearlaw_plugin_api::abi;
 
 use super::batch::{Batch, Outputs};
-use super::checks::{no_nan, sweep, unit_lengths};
+use super::checks::{Sweep, no_nan, sweep, unit_lengths};
 use super::descriptor::LawDescriptor;
 use super::evaluation::{EvaluateError, Evaluation, Evaluator};
 use super::fields::{Claim, OutputItem};
-use super::float_env::FloatEnv;
 use super::table::Created;
 
 mod diagnosis;
+mod float_guard;
+mod small;
+mod streamed;
 
-/// Points in a piece: its columns and outputs stay in the second-level cache between the law and the checks. Of 1024,
-/// 2048, .. 16384 this was the nearest to the speed of the memory for a linear law of two columns.
+use float_guard::Guard;
+use small::Small;
+
+/// Points in a piece: its columns and outputs stay in the second-level cache between the law and the checks. Of 256, 512,
+/// .. 8192 this was the fastest for a linear law of two columns, whose every call takes as long as 50 of its points.
 pub const PIECE: usize = 8192;
 
 /// A law that has been created; dropping it destroys the instance, then lets go of the library.
 pub struct LawInstance {
     created: Created,
     turn: Option<Mutex<()>>,
-    float_warned: AtomicBool,
+    /// Of all instances that this program ever made, which one.
+    number: u64,
+    /// Whether it has been found to change the floating-point environment.
+    changes_floats: AtomicBool,
     warnings: Mutex<Vec<String>>,
 }
 
@@ -59,7 +67,13 @@ struct Again {
 impl LawInstance {
     pub(super) fn new(created: Created, warnings: Vec<String>) -> Self {
         let turn = created.law.descriptor.is_serial().then(Mutex::default);
-        Self { created, turn, float_warned: AtomicBool::new(false), warnings: Mutex::new(warnings) }
+        Self {
+            created,
+            turn,
+            number: float_guard::next_number(),
+            changes_floats: AtomicBool::new(false),
+            warnings: Mutex::new(warnings),
+        }
     }
 
     /// As [`Evaluator::evaluate`]; `watch` is told of every piece before the law sees it.
@@ -73,14 +87,40 @@ impl LawInstance {
         outputs: &mut Outputs<'_>,
         watch: impl Fn(Range<usize>),
     ) -> Result<Evaluation, EvaluateError> {
-        let law = self.descriptor();
-        fits(law, batch, outputs)?;
+        match self.evaluate_small(batch, outputs, &watch) {
+            Small::Good => Ok(Evaluation::Good),
+            other => self.evaluate_any(batch, outputs, &watch, other),
+        }
+    }
+
+    /// Evaluates any batch; `small` is what became of it as a small one.
+    #[inline(never)]
+    fn evaluate_any(
+        &self,
+        batch: &Batch<'_>,
+        outputs: &mut Outputs<'_>,
+        watch: &impl Fn(Range<usize>),
+        small: Small,
+    ) -> Result<Evaluation, EvaluateError> {
+        fits(self.descriptor(), batch, outputs)?;
         let _turn = self.turn.as_ref().map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
-        let request = request(law, outputs);
-        if batch.points() <= PIECE
-            && let Some(view) = batch.whole_view(request)
-        {
-            return self.evaluate_whole(batch, view, outputs, watch);
+        let pieces = |guard: Guard<'_>| self.evaluate_pieces(batch, outputs, watch, guard);
+        match small {
+            Small::Changed(change, is_assumed) => self.again(change, is_assumed, pieces),
+            _ => self.guarded(pieces),
+        }
+    }
+
+    fn evaluate_pieces(
+        &self,
+        batch: &Batch<'_>,
+        outputs: &mut Outputs<'_>,
+        watch: &impl Fn(Range<usize>),
+        guard: Guard<'_>,
+    ) -> Result<Evaluation, EvaluateError> {
+        let request = request(self.descriptor(), outputs);
+        if request == 0 && streamed::pays(batch) {
+            return self.evaluate_streamed(batch, outputs.increment, watch, guard);
         }
         let mut cursor = batch.cursor(request);
         let mut worst = Evaluation::Good;
@@ -89,40 +129,33 @@ impl LawInstance {
             let piece = start..batch.points().min(start + PIECE);
             start = piece.end;
             watch(piece.clone());
-            let raw = self.call(cursor.at(&piece), &piece, outputs, None);
+            let raw = self.call(cursor.at(&piece), &piece, outputs, None, guard);
             if raw.values_are_meant() {
                 self.check(batch, piece.clone(), outputs)?;
             }
             if raw.status != abi::WL_OK {
-                // The first warning of a call is told in full; to ask the law again for each piece would cost as much.
-                if raw.status == abi::WL_UNRELIABLE && worst != Evaluation::Good {
-                    continue;
-                }
-                worst = worst.worse(self.diagnose(batch, piece, outputs, &raw)?);
+                worst = self.worse(worst, batch, piece, outputs, &raw, guard)?;
             }
         }
         Ok(worst)
     }
 
-    /// A small batch that is called as it stands; nothing is copied, since that would take longer than the law.
-    #[inline]
-    fn evaluate_whole(
+    /// What a call comes to when a piece of it did not end well.
+    #[cold]
+    fn worse(
         &self,
+        worst: Evaluation,
         batch: &Batch<'_>,
-        view: &abi::View,
+        piece: Range<usize>,
         outputs: &mut Outputs<'_>,
-        watch: impl Fn(Range<usize>),
+        raw: &Raw,
+        guard: Guard<'_>,
     ) -> Result<Evaluation, EvaluateError> {
-        let all = 0..batch.points();
-        if all.is_empty() {
-            return Ok(Evaluation::Good);
+        // The first warning of a call is told in full; to ask the law again for each piece would cost as much.
+        if raw.status == abi::WL_UNRELIABLE && worst != Evaluation::Good {
+            return Ok(worst);
         }
-        watch(all.clone());
-        let raw = self.call(view, &all, outputs, None);
-        if raw.values_are_meant() {
-            self.check(batch, all.clone(), outputs)?;
-        }
-        if raw.status == abi::WL_OK { Ok(Evaluation::Good) } else { self.diagnose(batch, all, outputs, &raw) }
+        Ok(worst.worse(self.diagnose(batch, piece, outputs, raw, guard)?))
     }
 
     /// One call of the law on `piece`, which is what `view` shows.
@@ -133,6 +166,7 @@ impl LawInstance {
         piece: &Range<usize>,
         outputs: &mut Outputs<'_>,
         again: Option<&mut Again>,
+        guard: Guard<'_>,
     ) -> Raw {
         let variables = self.descriptor().state.len();
         let null = std::ptr::null_mut();
@@ -156,35 +190,18 @@ impl LawInstance {
                 output.status = statuses.as_mut_ptr();
             }
         }
-        let before = FloatEnv::capture();
-        // SAFETY: `Batch` checked that every column reaches over its points, `fits` that every output does, and `Again`
-        // has a status for each; outputs are borrowed as exclusive, so they overlap nothing.
-        let status = unsafe { self.created.evaluate(view, &mut output) };
-        if let Some(change) = before.changed_since() {
-            before.restore();
-            self.warn_of_float_env(&change.to_string());
-        }
+        // SAFETY: `Batch` checked that every column reaches over its points, `fits` that every output does (or the caller
+        // that made one of its own), and `Again` has a status for each; outputs are borrowed as exclusive, so they
+        // overlap nothing.
+        let status = guard.around(self, || unsafe { self.created.evaluate(view, &mut output) });
         Raw { status, first_bad: output.first_bad, dt_factor: output.dt_factor, missing: output.missing }
-    }
-
-    #[cold]
-    fn warn_of_float_env(&self, change: &str) {
-        if !self.float_warned.swap(true, Ordering::Relaxed) {
-            let library = self.created.law.library();
-            let law = &self.descriptor().name;
-            self.warnings.lock().unwrap_or_else(PoisonError::into_inner).push(format!(
-                "law `{law}` of `{library}` changed the floating-point environment while it was evaluated ({change}); \
-                 it is put back after every call"
-            ));
-        }
     }
 
     /// Checks the answers of one piece, while they are in cache.
     #[inline]
     fn check(&self, batch: &Batch<'_>, piece: Range<usize>, outputs: &Outputs<'_>) -> Result<(), EvaluateError> {
         let law = self.descriptor();
-        let found = sweep(&outputs.increment[piece.clone()]);
-        let mut good = found.finite && (found.non_negative || !law.claims(Claim::NonNegative));
+        let mut good = self.is_allowed(sweep(&outputs.increment[piece.clone()]));
         if let Some(direction) = &outputs.direction {
             good &= unit_lengths(&direction[3 * piece.start..3 * piece.end]);
         }
@@ -196,6 +213,12 @@ impl LawInstance {
             good &= no_nan(&d_pressure[piece.clone()]);
         }
         if good { Ok(()) } else { Err(self.broken(batch, piece, outputs)) }
+    }
+
+    /// Whether increments with these properties keep the contract.
+    #[inline]
+    fn is_allowed(&self, found: Sweep) -> bool {
+        found.finite && (found.non_negative || !self.descriptor().claims(Claim::NonNegative))
     }
 }
 
@@ -233,7 +256,6 @@ fn at<T>(array: &mut Option<&mut [T]>, piece: &Range<usize>, width: usize) -> *m
 }
 
 /// Checks that batch and outputs are made for this law and for each other.
-#[inline]
 pub(super) fn fits(law: &LawDescriptor, batch: &Batch<'_>, outputs: &Outputs<'_>) -> Result<(), EvaluateError> {
     if !std::ptr::eq(batch.descriptor(), law) && batch.descriptor() != law {
         return Err(EvaluateError::OtherLaw { law: law.name.clone(), found: batch.descriptor().name.clone() });

@@ -24,6 +24,7 @@ pub mod loader;
 pub mod lookup;
 pub mod memory;
 mod number_text;
+mod streaming;
 mod table;
 pub mod values;
 

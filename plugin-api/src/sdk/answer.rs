@@ -69,6 +69,26 @@ impl<'a> Answer<'a> {
         }
     }
 
+    /// The increments `[points]` of a call that wants nothing else.
+    ///
+    /// # Safety
+    /// As for [`Answer::new`].
+    #[inline(always)]
+    pub(crate) unsafe fn increments_alone(output: *mut Output, points: usize) -> Option<&'a mut [f64]> {
+        // SAFETY: the caller promises `struct_size` bytes, which hold every field that is read, and the length of the
+        // increments.
+        unsafe {
+            let output = output.as_ref()?;
+            let is_whole = usize::try_from(output.struct_size).is_ok_and(|size| size >= size_of::<Output>());
+            let alone = is_whole
+                && output.direction.is_null()
+                && output.state.is_null()
+                && output.status.is_null()
+                && output.d_pressure.is_null();
+            (alone && !output.increment.is_null()).then(|| from_raw_parts_mut(output.increment, points))
+        }
+    }
+
     /// Notes a status at point `i`; the first point of the worst status keeps its text.
     ///
     /// The array of statuses, where it is wanted, gets the number too.

@@ -244,16 +244,29 @@ unsafe extern "C" fn create<T: Law>(
 unsafe extern "C" fn evaluate<T: Law>(instance: *mut c_void, view: *const View, output: *mut Output) -> i32 {
     let mut room = MaybeUninit::uninit();
     // SAFETY: the host promises that view and output are valid for the call, and gives the instance that `create` made.
-    let (law, batch, answer) = unsafe {
-        let law = instance.cast::<T>().as_ref();
-        let batch = Batch::new(view, &mut room);
-        let points = batch.as_ref().map_or(0, Batch::points);
-        (law, batch, Answer::new(output, points, T::STATE.len()))
-    };
-    let (Some(law), Some(batch), Some(mut answer)) = (law, batch, answer) else {
+    let (law, batch) = unsafe { (instance.cast::<T>().as_ref(), Batch::new(view, &mut room)) };
+    let (Some(law), Some(batch)) = (law, batch) else { return WL_FAILED };
+    // SAFETY: as above; the slice is gone when the whole answer is made.
+    if let Some(increment) = unsafe { Answer::increments_alone(output, batch.points()) }
+        && let Ok(true) = catch_unwind(AssertUnwindSafe(|| law.increments(&batch, increment)))
+    {
+        return WL_OK;
+    }
+    // SAFETY: as above.
+    unsafe { evaluate_any(law, &batch, output) }
+}
+
+/// Evaluates a law with whatever is wanted.
+///
+/// # Safety
+/// As for [`Answer::new`].
+#[inline]
+unsafe fn evaluate_any<T: Law>(law: &T, batch: &Batch<'_>, output: *mut Output) -> i32 {
+    // SAFETY: the caller keeps the contract of `Answer::new`.
+    let Some(mut answer) = (unsafe { Answer::new(output, batch.points(), T::STATE.len()) }) else {
         return WL_FAILED;
     };
-    let status = match catch_unwind(AssertUnwindSafe(|| law.evaluate(&batch, &mut answer))) {
+    let status = match catch_unwind(AssertUnwindSafe(|| law.evaluate(batch, &mut answer))) {
         Ok(status) => status.max(answer.worst()),
         Err(payload) => {
             let words = payload.downcast_ref::<&str>().copied().map(str::to_owned);
@@ -262,8 +275,10 @@ unsafe extern "C" fn evaluate<T: Law>(instance: *mut c_void, view: *const View, 
             Status::Failed
         }
     };
-    // SAFETY: this is the output that the answer was made from.
-    unsafe { answer.finish(output) };
+    if status != Status::Ok {
+        // SAFETY: this is the output that the answer was made from; what is noted there means something on a bad status.
+        unsafe { answer.finish(output) };
+    }
     status as i32
 }
 

@@ -133,41 +133,101 @@ pub trait PointLaw: About {
     fn point(&self, at: &Point, out: &mut PointAnswer) -> Status;
 }
 
+macro_rules! put_others {
+    ($T:ident, $batch:ident, $i:expr, $at:ident; $($name:ident: $bit:ident $get:ident),*) => {
+        $(if ($T::READS | $T::USES) & $bit != 0 {
+            if let Some(column) = $batch.$name() { $at.$name = column.$get($i); }
+        })*
+    };
+}
+
 impl<T: PointLaw> Law for T {
+    // Amid the guard against panics the loop is not vectorised.
+    #[inline(never)]
     fn evaluate(&self, batch: &Batch<'_>, answer: &mut Answer<'_>) -> Status {
         const {
             assert!(T::CONSTANTS.len() <= MOST && T::INPUTS.len() <= MOST, "at most 16 constants and inputs");
             assert!(T::STATE.len() <= MOST_STATE, "at most 8 state variables");
         }
         let missing = batch.missing(T::READS);
-        let constants = columns(T::CONSTANTS.len(), |k| batch.constant(k));
-        let inputs = columns(T::INPUTS.len(), |k| batch.input(k));
-        let (Some(constants), Some(inputs), 0) = (constants, inputs, missing) else {
+        let constants = (0..T::CONSTANTS.len()).map(|k| batch.constant(k));
+        let inputs = (0..T::INPUTS.len()).map(|k| batch.input(k));
+        if missing != 0 || constants.clone().chain(inputs).any(|column| column.is_none()) {
             answer.miss(missing);
             return answer.worst();
-        };
+        }
         if !T::STATE.is_empty() && (batch.state().is_none() || answer.state.is_none()) {
             answer.say(Status::MissingInput, format_args!("the call gives no state variables"));
             return answer.worst();
         }
         answer.all_good();
-        let uniform = constants[..T::CONSTANTS.len()].iter().all(|c| c.and_then(|c| c.uniform()).is_some());
-        if uniform {
-            run::<T, true>(self, batch, answer, &constants, &inputs);
+        if constants.flatten().all(|column| column.uniform().is_some()) {
+            run::<T, true>(self, batch, answer);
         } else {
-            run::<T, false>(self, batch, answer, &constants, &inputs);
+            run::<T, false>(self, batch, answer);
         }
         answer.worst()
     }
+
+    #[inline]
+    fn increments(&self, batch: &Batch<'_>, increment: &mut [f64]) -> bool {
+        T::STATE.is_empty() && T::INPUTS.is_empty() && run_alone::<T>(self, batch, increment)
+    }
 }
 
-/// The first `count` columns of a list, or nothing if one of them is absent.
-fn columns<'a>(count: usize, get: impl Fn(usize) -> Option<Column<'a>>) -> Option<[Option<Column<'a>>; MOST]> {
-    let mut all = [None; MOST];
-    for (k, place) in all.iter_mut().enumerate().take(count) {
-        *place = Some(get(k)?);
+/// Goes over fields that lie side by side with constants that are the same at all points, if they are and all is well.
+#[inline(never)]
+fn run_alone<T: PointLaw>(law: &T, batch: &Batch<'_>, increment: &mut [f64]) -> bool {
+    let points = increment.len();
+    if points == 0 || batch.missing(T::READS) != 0 || !Scalars::in_place::<T>(batch) {
+        return false;
     }
-    Some(all)
+    let mut blank = blank::<T>(batch);
+    for (k, constant) in blank.constants.iter_mut().enumerate().take(T::CONSTANTS.len()) {
+        let Some(value) = batch.constant(k).and_then(|column| column.uniform()) else { return false };
+        *constant = value;
+    }
+    let mut room = Block::empty();
+    let scalars = Scalars::load::<T>(batch, 0, points, &mut room);
+    let mut worst = Status::Ok;
+    for (i, increment) in increment.iter_mut().enumerate() {
+        let (status, out) = ask(law, batch, &scalars, i, i, blank);
+        *increment = out.increment;
+        worst = worst.max(status);
+    }
+    worst == Status::Ok
+}
+
+/// Asks the law at point `i`, the `k`th of its block, with what `here` holds already and the fields.
+#[inline(always)]
+fn ask<T: PointLaw>(
+    law: &T,
+    batch: &Batch<'_>,
+    scalars: &Scalars<'_>,
+    k: usize,
+    i: usize,
+    mut here: Point,
+) -> (Status, PointAnswer) {
+    scalars.put::<T>(k, &mut here);
+    put_others!(T, batch, i, here; slip_vector: WL_FIELD_SLIP_VECTOR vector, normal: WL_FIELD_NORMAL vector,
+        coordinates: WL_FIELD_COORDINATES vector, tangent: WL_FIELD_TANGENT vector,
+        friction_stress: WL_FIELD_FRICTION_STRESS vector, contact_state: WL_FIELD_CONTACT_STATE get,
+        point_id: WL_FIELD_POINT_ID get, element_id: WL_FIELD_ELEMENT_ID get);
+    let mut out = PointAnswer {
+        increment: 0.0,
+        direction: here.normal.map(|component| -component),
+        state: here.state,
+        d_pressure: 0.0,
+        dt_factor: 0.0,
+        text: "",
+    };
+    (law.point(&here, &mut out), out)
+}
+
+/// Value of a constant or an input at point `i`.
+#[inline(always)]
+fn value_of(column: Option<Column<'_>>, i: usize) -> f64 {
+    column.map_or(f64::NAN, |column| column.get(i))
 }
 
 macro_rules! scalars {
@@ -212,27 +272,14 @@ scalars!(
     nodal_traction: WL_FIELD_NODAL_TRACTION, gap: WL_FIELD_GAP, area: WL_FIELD_AREA
 );
 
-macro_rules! put_others {
-    ($T:ident, $batch:ident, $i:expr, $at:ident; $($name:ident: $bit:ident $get:ident),*) => {
-        $(if ($T::READS | $T::USES) & $bit != 0 {
-            if let Some(column) = $batch.$name() { $at.$name = column.$get($i); }
-        })*
-    };
-}
-
 #[inline(always)]
-fn run<T: PointLaw, const UNIFORM: bool>(
-    law: &T,
-    batch: &Batch<'_>,
-    answer: &mut Answer<'_>,
-    constants: &[Option<Column<'_>>; MOST],
-    inputs: &[Option<Column<'_>>; MOST],
-) {
+fn run<T: PointLaw, const UNIFORM: bool>(law: &T, batch: &Batch<'_>, answer: &mut Answer<'_>) {
     let points = batch.points();
-    let at = |column: &Option<Column<'_>>, i: usize| column.map_or(f64::NAN, |c| c.get(i));
     let mut blank = blank::<T>(batch);
     if UNIFORM && points > 0 {
-        blank.constants = core::array::from_fn(|k| at(&constants[k], 0));
+        for (k, constant) in blank.constants.iter_mut().enumerate().take(T::CONSTANTS.len()) {
+            *constant = value_of(batch.constant(k), 0);
+        }
     }
     let turns = T::WRITES & WL_OUT_DIRECTION != 0;
     let mut room = Block::empty();
@@ -244,31 +291,22 @@ fn run<T: PointLaw, const UNIFORM: bool>(
         let one = |k: usize| {
             let i = start + k;
             let mut here = blank;
-            scalars.put::<T>(k, &mut here);
-            put_others!(T, batch, i, here; slip_vector: WL_FIELD_SLIP_VECTOR vector, normal: WL_FIELD_NORMAL vector,
-                coordinates: WL_FIELD_COORDINATES vector, tangent: WL_FIELD_TANGENT vector,
-                friction_stress: WL_FIELD_FRICTION_STRESS vector, contact_state: WL_FIELD_CONTACT_STATE get,
-                point_id: WL_FIELD_POINT_ID get, element_id: WL_FIELD_ELEMENT_ID get);
             if !UNIFORM {
-                here.constants = core::array::from_fn(|k| at(&constants[k], i));
+                for (k, constant) in here.constants.iter_mut().enumerate().take(T::CONSTANTS.len()) {
+                    *constant = value_of(batch.constant(k), i);
+                }
             }
             if !T::INPUTS.is_empty() {
-                here.inputs = core::array::from_fn(|k| at(&inputs[k], i));
+                for (k, input) in here.inputs.iter_mut().enumerate().take(T::INPUTS.len()) {
+                    *input = value_of(batch.input(k), i);
+                }
             }
             if let (false, Some(state)) = (T::STATE.is_empty(), batch.state()) {
                 for k in 0..T::STATE.len() {
                     here.state[k] = state.adjacent(i, k);
                 }
             }
-            let mut out = PointAnswer {
-                increment: 0.0,
-                direction: here.normal.map(|component| -component),
-                state: here.state,
-                d_pressure: 0.0,
-                dt_factor: 0.0,
-                text: "",
-            };
-            (law.point(&here, &mut out), out)
+            ask(law, batch, &scalars, k, i, here)
         };
         let increments = &mut answer.increment[start..start + len];
         let mut derivatives = answer.d_pressure.as_deref_mut().map(|d| &mut d[start..start + len]);

@@ -52,6 +52,14 @@ fn column(values: &[f64], step: i64) -> abi::Column {
 }
 
 fn evaluate(pressure: &[f64], step: i64, edit: impl FnOnce(&mut View, &mut Output)) -> (i32, Vec<f64>, Vec<f64>, Call) {
+    evaluate_law::<Sample>(pressure, step, edit)
+}
+
+fn evaluate_law<T: Law>(
+    pressure: &[f64],
+    step: i64,
+    edit: impl FnOnce(&mut View, &mut Output),
+) -> (i32, Vec<f64>, Vec<f64>, Call) {
     let points = if step == 0 { 5 } else { pressure.len() / step as usize };
     let constants = [column(&[2.0], 0)];
     let (slip, state) = ([3.0], vec![10.0; points]);
@@ -69,7 +77,7 @@ fn evaluate(pressure: &[f64], step: i64, edit: impl FnOnce(&mut View, &mut Outpu
     (call.output.increment, call.output.state) = (increment.as_mut_ptr(), end.as_mut_ptr());
     (call.output.text, call.output.text_size) = (call.text.as_mut_ptr(), 64);
     edit(&mut call.view, &mut call.output);
-    fill::<Sample>(&mut table);
+    fill::<T>(&mut table);
     let mut instance: *mut c_void = core::ptr::null_mut();
     // SAFETY: every pointer above outlives the calls, and the instance is destroyed once.
     let status = unsafe {
@@ -146,6 +154,80 @@ fn a_panic_stays_inside_and_says_why() {
 fn an_empty_batch_is_fine() {
     let (status, increment, ..) = evaluate(&[], 1, |_, _| ());
     assert_eq!((status, increment), (WL_OK, vec![]));
+}
+
+/// k p s, against the normal; refuses pressures above 100, panics at 1000.
+struct Stateless;
+
+impl About for Stateless {
+    const NAME: &'static str = "stateless";
+    const READS: i64 = WL_FIELD_PRESSURE | WL_FIELD_SLIP;
+    const USES: i64 = WL_FIELD_SLIP_VECTOR;
+    const CONSTANTS: &'static [Quantity] = &[Quantity::new("k", Unit::PER_PASCAL).at_least(0.0)];
+    const INSTANCE: Option<Self> = Some(Stateless);
+}
+
+impl PointLaw for Stateless {
+    fn point(&self, at: &Point, out: &mut PointAnswer) -> Status {
+        assert!(at.pressure != 1000.0, "a thousand is too much");
+        let [k] = at.constants();
+        let more = if at.slip_vector[1].is_nan() { 0.0 } else { at.slip_vector[1] };
+        out.increment = k * at.pressure * at.slip + more;
+        out.text = "pressure over 100";
+        if at.pressure > 100.0 { Status::OutOfDomain } else { Status::Ok }
+    }
+}
+
+/// Calls for the increments alone, or for statuses too, with slips of 0.25, 0.5 ..
+fn stateless(pressure: &[f64], alone: bool, edit: impl FnOnce(&mut View)) -> (i32, Vec<f64>, i64, String) {
+    let slip: Vec<f64> = (1..=pressure.len()).map(|i| i as f64 / 4.0).collect();
+    let mut every = vec![-1; pressure.len()];
+    let at = every.as_mut_ptr();
+    let (status, increment, _, call) = evaluate_law::<Stateless>(pressure, 1, |view, output| {
+        view.slip = column(&slip, 1);
+        output.state = core::ptr::null_mut();
+        output.first_bad = -1;
+        if !alone {
+            output.status = at;
+        }
+        edit(view);
+    });
+    (status, increment, call.output.first_bad, words(&call))
+}
+
+#[test]
+fn increments_alone_are_those_of_any_call() {
+    let factors: Vec<f64> = (0..150).map(|i| 1.0 + f64::from(i)).collect();
+    let factor = [column(&factors, 1)];
+    let vectors: Vec<f64> = (0..450).map(f64::from).collect();
+    for points in [0, 1, 2, 63, 65, 150] {
+        let pressure: Vec<f64> = (0..points).map(|i| i as f64 / 3.0).collect();
+        let right: Vec<f64> = pressure.iter().enumerate().map(|(i, p)| 2.0 * p * ((i + 1) as f64 / 4.0)).collect();
+        assert_eq!(stateless(&pressure, true, |_| ()), (WL_OK, right, -1, String::new()));
+        type Edit<'a> = &'a dyn Fn(&mut View);
+        let edits: [Edit<'_>; 4] =
+            [&|_| (), &|view| view.slip = column(&[0.5], 0), &|view| view.constants = factor.as_ptr(), &|view| {
+                view.slip_vector = column(&vectors, 3)
+            }];
+        for edit in edits {
+            assert_eq!(stateless(&pressure, true, edit), stateless(&pressure, false, edit));
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_with_increments_alone_is_told_as_ever() {
+    let mut pressure = vec![1.0; 90];
+    pressure[77] = 101.0;
+    let (status, increment, first_bad, said) = stateless(&pressure, true, |_| ());
+    assert_eq!((status, first_bad, said.as_str()), (WL_OUT_OF_DOMAIN, 77, "pressure over 100"));
+    assert_eq!(increment[89], 45.0);
+    pressure[77] = 1000.0;
+    let (status, _, _, said) = stateless(&pressure, true, |_| ());
+    assert!(status == WL_FAILED && said.contains("a thousand is too much"), "{said}");
+    let absent = |view: &mut View| view.slip = abi::Column { ptr: null(), step: 0 };
+    assert_eq!(stateless(&pressure, true, absent).0, WL_MISSING_INPUT);
+    assert_eq!(stateless(&pressure, true, |view| view.constant_count = 0).0, WL_MISSING_INPUT);
 }
 
 #[test]

@@ -44,31 +44,9 @@ impl About for Archard {
 }
 
 impl Law for Archard {
-    #[inline]
-    fn evaluate(&self, batch: &Batch<'_>, answer: &mut Answer<'_>) -> Status {
-        if steady(batch, answer) {
-            answer.all_good();
-            return answer.worst();
-        }
-        self.evaluate_any(batch, answer)
-    }
-}
-
-/// Answers a linear law over columns of ordinary numbers, the common case, with as little ceremony as a call of a few
-/// points deserves; whether this was one.
-#[inline(always)]
-fn steady(batch: &Batch<'_>, answer: &mut Answer<'_>) -> bool {
-    let (Some([k, h, 1.0, 1.0]), None) = (batch.uniform_constants(), &answer.d_pressure) else { return false };
-    let (Some(pressure), Some(velocity)) = (batch.pressure(), batch.velocity()) else { return false };
-    match (pressure.slice(), velocity.slice()) {
-        (Some(p), Some(v)) => power::steady(p, v, (k, h, batch.dt()), answer.increment),
-        _ => false,
-    }
-}
-
-impl Archard {
+    // Out of the way of the common case.
     #[inline(never)]
-    fn evaluate_any(&self, batch: &Batch<'_>, answer: &mut Answer<'_>) -> Status {
+    fn evaluate(&self, batch: &Batch<'_>, answer: &mut Answer<'_>) -> Status {
         let missing = batch.missing(<Self as About>::READS);
         let constants = [0, 1, 2, 3].map(|k| batch.constant(k));
         let (Some(pressure), Some(velocity), [Some(k), Some(h), Some(m), Some(n)]) =
@@ -115,6 +93,17 @@ impl Archard {
             }
         }
         answer.worst()
+    }
+
+    /// A linear law over columns of ordinary numbers, the common case.
+    #[inline]
+    fn increments(&self, batch: &Batch<'_>, increment: &mut [f64]) -> bool {
+        let Some([k, h, 1.0, 1.0]) = batch.uniform_constants() else { return false };
+        let (Some(pressure), Some(velocity)) = (batch.pressure(), batch.velocity()) else { return false };
+        match (pressure.slice(), velocity.slice()) {
+            (Some(p), Some(v)) => power::steady(p, v, (k, h, batch.dt()), increment),
+            _ => false,
+        }
     }
 }
 

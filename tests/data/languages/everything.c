@@ -14,7 +14,7 @@
 #include "wearlaw_point.h"
 
 WL_POINT {
-    double scale = WL_HAS(in, temperature) ? in->temperature : 3;
+    double scale = WL_HAS(in, temperature) ? in->temperature - in->call->absolute_zero : 3;
     double slope = c->k * in->slip_vector[1] * in->film * in->humidity * scale;
     out->d_pressure = in->contact_state == WL_OPEN ? 0 : slope;
     out->increment = out->d_pressure * in->pressure;

@@ -20,7 +20,7 @@ struct Everything : Law<Everything> {
     static double pressure_degree() { return 1; }
 
     int32_t point(const In &in, const C &c, const S &s, Out &out) const {
-        const double scale = in.has<Temperature>() ? in.temperature : 3;
+        const double scale = in.has<Temperature>() ? in.temperature - in.call->absolute_zero : 3;
         const double slope = c.k * in.slip_vector[1] * in.film * in.humidity * scale;
         out.d_pressure = in.contact_state == WL_OPEN ? 0 : slope;
         out.increment = out.d_pressure * in.pressure;

@@ -21,7 +21,7 @@ contains
     type(wl_out), intent(inout) :: out
     real(c_double) :: scale
     scale = 3
-    if (wl_has(in, WL_FIELD_TEMPERATURE)) scale = in%temperature
+    if (wl_has(in, WL_FIELD_TEMPERATURE)) scale = in%temperature - in%absolute_zero
     if (in%contact_state /= WL_OPEN) out%d_pressure = c(1) * in%slip_vector(2) * in%input(1) * in%input(2) * scale
     out%increment = out%d_pressure * in%pressure
     if (wl_has(in, WL_FIELD_TANGENT)) out%direction(1) = in%tangent(3)

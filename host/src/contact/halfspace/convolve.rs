@@ -109,18 +109,6 @@ impl Convolution {
         }
     }
 
-    /// Cells in x and y.
-    pub fn counts(&self) -> [usize; 2] {
-        self.counts
-    }
-
-    /// What a cell does to itself, about.
-    pub fn own(&self) -> f64 {
-        let [half, rows] = [self.padded[0] / 2 + 1, self.padded[1] / 2 + 1];
-        let all: f64 = self.symbol.values.iter().sum();
-        all * (self.padded[0] * self.padded[1]) as f64 / (half * rows) as f64
-    }
-
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
         let complex = size_of::<Complex<f64>>();
@@ -197,7 +185,7 @@ impl Convolution {
                 }
                 // What rounding left of the imaginary parts of bins that are real.
                 bench.bins[0].im = 0.0;
-                if self.padded[0] % 2 == 0 {
+                if self.padded[0].is_multiple_of(2) {
                     bench.bins[bins - 1].im = 0.0;
                 }
                 done(backward.process_with_scratch(

@@ -3,7 +3,7 @@
 //! The units are powers of two, so the bits of the answer do not depend on the units of the scene as long as those
 //! differ by powers of two, and nothing overflows that does not overflow in the answer.
 
-use crate::contact::{Cells, ContactError, Control, Problem};
+use crate::contact::{Cells, ContactError, Control, Diagonal, Problem};
 
 /// The largest power of two that is not above a positive number.
 pub fn power_of_two(value: f64) -> f64 {
@@ -20,54 +20,59 @@ pub struct Units {
 }
 
 /// A problem in its own units, gaps counted from `datum`.
-#[derive(Clone, Debug)]
-pub struct Scaled {
+#[derive(Clone, Copy, Debug)]
+pub struct Scaled<'a> {
+    problem: &'a Problem<'a>,
     /// Units.
     pub units: Units,
-    /// What was subtracted from all gaps; in the unit of the caller.
+    /// What is subtracted from all gaps; in the unit of the caller.
     pub datum: f64,
-    /// Gap `[cells]`, infinite where the bodies never touch.
-    pub gap: Vec<f64>,
-    /// Local compliance `[cells]`, or one for all, or none.
-    pub local: Vec<f64>,
     /// Sum of the pressures of all cells, if the load is given; otherwise the approach is 0.
     pub sum: Option<f64>,
-    /// Largest error, times the length it is measured with; 0 if that is not known.
-    pub bar: f64,
     /// The length that errors are measured with; 0 if it is not known.
     pub scale: f64,
+    /// Unit of local compliances.
+    compliance: f64,
 }
 
-impl Scaled {
+impl<'a> Scaled<'a> {
     /// From a problem; `stiffness` is a power of two near E* over the unit of lengths along the surface.
     ///
     /// # Errors
     /// Numbers that are not finite, and no cell that could touch.
-    pub fn new(problem: &Problem<'_>, cells: &Cells, stiffness: f64) -> Result<Scaled, ContactError> {
-        let among = |cell: usize| problem.frozen.is_none_or(|set| set[cell]);
-        let touching = || problem.gap.iter().enumerate().filter(|(cell, gap)| among(*cell) && **gap != f64::INFINITY);
+    pub fn new(problem: &'a Problem<'a>, cells: &Cells, stiffness: f64) -> Result<Scaled<'a>, ContactError> {
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut finite = true;
-        for (_, gap) in touching() {
-            finite &= gap.is_finite();
-            lowest = lowest.min(*gap);
-            highest = highest.max(*gap);
+        for (cell, gap) in problem.gap.iter().enumerate() {
+            // A gap without end is no contact, unless it is said to be one.
+            let touches = problem.frozen.map_or(*gap != f64::INFINITY, |set| set[cell]);
+            if touches {
+                finite &= gap.is_finite();
+                lowest = lowest.min(*gap);
+                highest = highest.max(*gap);
+            }
         }
         let (Control::Load(given) | Control::Approach(given)) = problem.control;
-        let largest = highest.abs().max(lowest.abs());
-        let not_finite = |what| ContactError::NotFinite { what, gap: largest, given };
+        let not_finite = |what| ContactError::NotFinite { what, gap: highest.abs().max(lowest.abs()), given };
         if !finite {
             return Err(not_finite("a gap"));
         }
         if !given.is_finite() {
             return Err(not_finite("a load or approach"));
         }
-        let diagonal = (0..problem.gap.len()).map(|cell| problem.diagonal.at(cell));
-        if !diagonal.clone().all(|b| b.is_finite() && b >= 0.0) {
+        let right = |b: f64| b.is_finite() && b >= 0.0;
+        let diagonal = match problem.diagonal {
+            Diagonal::Zero => true,
+            Diagonal::Uniform(b) => right(b),
+            Diagonal::PerPoint(values) => values.iter().all(|b| right(*b)),
+        };
+        if !diagonal {
             return Err(not_finite("a local compliance"));
         }
         let (datum, pressure) = match problem.control {
-            Control::Load(load) if lowest == f64::INFINITY => return Err(ContactError::NowhereToTouch { load }),
+            Control::Load(load) if lowest == f64::INFINITY && (problem.frozen.is_none() || load != 0.0) => {
+                return Err(ContactError::NowhereToTouch { load });
+            }
             Control::Load(load) => (lowest, (load / cells.area() / cells.count() as f64).abs()),
             Control::Approach(approach) => (approach, 0.0),
         };
@@ -79,36 +84,34 @@ impl Scaled {
         };
         let size = (pressure / stiffness).max(pressing);
         // Where the approach leaves everything open, the gaps themselves give the unit.
+        let largest = highest.abs().max(lowest.abs());
         let unit = power_of_two(if size > 0.0 || !largest.is_finite() { size } else { largest });
         let units = Units { gap: unit, pressure: unit * stiffness };
-        let scale = if problem.scale.is_finite() && problem.scale > 0.0 { problem.scale / unit } else { 0.0 };
-        let local = match problem.diagonal {
-            crate::contact::Diagonal::Zero => Vec::new(),
-            crate::contact::Diagonal::Uniform(b) if b == 0.0 => Vec::new(),
-            crate::contact::Diagonal::Uniform(b) => vec![b * stiffness],
-            crate::contact::Diagonal::PerPoint(b) => b.iter().map(|b| b * stiffness).collect(),
-        };
         Ok(Scaled {
+            problem,
             units,
-            datum,
-            gap: problem.gap.iter().map(|gap| (gap - datum) / unit).collect(),
-            local,
+            datum: if datum.is_finite() { datum } else { 0.0 },
             sum: match problem.control {
                 Control::Load(load) => Some(load / cells.area() / units.pressure),
                 Control::Approach(_) => None,
             },
-            bar: problem.tolerance * scale,
-            scale,
+            scale: if problem.scale.is_finite() && problem.scale > 0.0 { problem.scale / unit } else { 0.0 },
+            compliance: stiffness,
         })
     }
 
-    /// Local compliance of a cell.
+    /// Gap of a cell.
     #[inline]
-    pub fn local(&self, cell: usize) -> f64 {
-        match self.local.len() {
-            0 => 0.0,
-            1 => self.local[0],
-            _ => self.local[cell],
+    pub fn gap(&self, cell: usize) -> f64 {
+        (self.problem.gap[cell] - self.datum) / self.units.gap
+    }
+
+    /// Local compliances of cells, or one for all, or none.
+    pub fn local(&self, cells: impl Iterator<Item = usize>) -> Vec<f64> {
+        match self.problem.diagonal {
+            Diagonal::PerPoint(b) => cells.map(|cell| b[cell] * self.compliance).collect(),
+            Diagonal::Uniform(b) if b > 0.0 => vec![b * self.compliance],
+            _ => Vec::new(),
         }
     }
 }

@@ -50,8 +50,8 @@ impl Quarter {
                 // The lengths are the plan's own.
                 let done = plan.process_with_scratch(&mut line, &mut out, &mut scratch);
                 debug_assert!(done.is_ok());
-                for k in 0..count {
-                    self.values[first + k * step] = out[k].re;
+                for (k, value) in out.iter().take(count).enumerate() {
+                    self.values[first + k * step] = value.re;
                 }
             }
         }

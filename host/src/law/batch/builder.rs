@@ -8,7 +8,7 @@ use wearlaw_plugin_api::abi;
 use super::super::descriptor::{LawDescriptor, Quantity};
 use super::super::fields::{Field, Shape};
 use super::super::values::{CallNumbers, Indices, Values};
-use super::columns::{blank_view, column_of, index_column_of};
+use super::columns::{blank_view, column_of, index_column_of, step_of};
 use super::{Batch, BatchError, Store, halves};
 
 /// Gathers the columns of a [`Batch`]; what the law did not declare is dropped.
@@ -130,13 +130,11 @@ impl<'a> BatchBuilder<'a> {
             }
         }
         (view.constants, view.inputs) = halves(&columns, view.constant_count);
-        let moves = |field: &Field| {
-            let mut view = view;
-            column_of(&mut view, *field).is_some_and(|column| column.step != 0)
-                || index_column_of(&mut view, *field).is_some_and(|column| column.step != 0)
-        };
-        let moving = law.fields().iter().filter(moves).collect();
+        let moves = |field: &Field| step_of(&view, *field) != 0;
+        let moving: Vec<Field> = law.fields().iter().filter(moves).collect();
+        let steps = moving.iter().map(|field| step_of(&view, *field)).chain(columns.iter().map(|column| column.step));
         let store = Store {
+            bytes_per_point: size_of::<f64>() * (1 + steps.chain([view.state.step]).sum::<i64>() as usize),
             moving,
             numbers: self.numbers,
             descriptor: law,

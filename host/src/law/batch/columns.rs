@@ -95,6 +95,13 @@ pub(in crate::law) fn index_column_of(view: &mut abi::View, field: Field) -> Opt
     }
 }
 
+/// Numbers from point to point of a field, real or integer; 0 if it is one for all or absent.
+pub(super) fn step_of(view: &abi::View, field: Field) -> i64 {
+    let mut view = *view;
+    let step = column_of(&mut view, field).map(|column| column.step);
+    step.or_else(|| index_column_of(&mut view, field).map(|column| column.step)).unwrap_or(0)
+}
+
 /// The column that begins `points` points later.
 pub(super) fn behind(column: abi::Column, points: usize) -> abi::Column {
     abi::Column { ptr: column.ptr.wrapping_offset(points as isize * column.step as isize), step: column.step }

@@ -99,6 +99,8 @@ struct Store<'a> {
     columns_are_uniform: bool,
     /// Fields that differ from point to point.
     moving: Vec<Field>,
+    /// Of columns that differ from point to point, with a wear increment.
+    bytes_per_point: usize,
     _numbers: Vec<f64>,
     _indices: Vec<i64>,
     borrowed: PhantomData<(&'a [f64], &'a [i64])>,
@@ -181,11 +183,16 @@ impl<'a> Batch<'a> {
         Batch { store: Arc::clone(&self.store), first: self.first + range.start, points: range.len() }
     }
 
-    /// The ABI's view of this batch, if it is the whole one and nothing is wanted but the increment: no copy is made.
+    /// The ABI's view of this batch, if it is the whole one: it asks for nothing but the increment, and is no copy.
     #[inline]
-    pub(super) fn whole_view(&self, request: i64) -> Option<&abi::View> {
+    pub(super) fn whole_view(&self) -> Option<&abi::View> {
         let view = &self.store.view;
-        (request == 0 && self.first == 0 && view.points == self.points as i64).then_some(view)
+        (self.first == 0 && view.points == self.points as i64).then_some(view)
+    }
+
+    /// Bytes of the whole batch that a call reads at each point for itself, and of the increments that it writes.
+    pub(super) fn bytes_moved(&self) -> usize {
+        (self.store.view.points as usize).saturating_mul(self.store.bytes_per_point)
     }
 
     /// Begins to go through this batch with views of its ranges.

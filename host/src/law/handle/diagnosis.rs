@@ -10,7 +10,7 @@ use super::super::checks::{LENGTH_TOLERANCE, no_nan, unit_lengths};
 use super::super::evaluation::{EvaluateError, Evaluation, Evaluator, NumberText, PointInputs};
 use super::super::fields::{Claim, Fields, OutputItem};
 use super::super::table::TEXT_SIZE;
-use super::{Again, LawInstance, Raw, bit, request};
+use super::{Again, Guard, LawInstance, Raw, bit, request};
 
 impl LawInstance {
     /// Asks the law again, for the status of every point and for its words, and says what the call comes to.
@@ -21,13 +21,14 @@ impl LawInstance {
         piece: Range<usize>,
         outputs: &mut Outputs<'_>,
         raw: &Raw,
+        guard: Guard<'_>,
     ) -> Result<Evaluation, EvaluateError> {
         let asks = self.descriptor().writes(OutputItem::Status) && outputs.status.is_none();
         let statuses = asks.then(|| vec![abi::WL_OK; piece.len()]);
         let mut again = Again { statuses, words: vec![0; TEXT_SIZE] };
         let wanted = request(self.descriptor(), outputs) | bit(asks, abi::WL_OUT_STATUS);
         let view = batch.range(piece.clone());
-        let second = self.call(view.cursor(wanted).at(&(0..piece.len())), &piece, outputs, Some(&mut again));
+        let second = self.call(view.cursor(wanted).at(&(0..piece.len())), &piece, outputs, Some(&mut again), guard);
         let statuses = match (&again.statuses, &outputs.status) {
             (Some(statuses), _) => statuses.as_slice(),
             (None, Some(given)) => &given[piece.clone()],
@@ -37,17 +38,24 @@ impl LawInstance {
         let point = first_bad(statuses, raw.status)
             .or_else(|| named(raw.first_bad, piece.len()))
             .or_else(|| named(second.first_bad, piece.len()))
-            .or_else(|| self.search(batch, piece.clone(), outputs, raw.status));
+            .or_else(|| self.search(batch, piece.clone(), outputs, raw.status, guard));
         let at = point.map(|point| batch.inputs_at(piece.start + point));
         self.verdict(raw, at, text)
     }
 
     /// Finds the point by asking for one point at a time: a law is pure, so each answers as it did in the batch.
-    fn search(&self, batch: &Batch<'_>, piece: Range<usize>, outputs: &mut Outputs<'_>, status: i32) -> Option<usize> {
+    fn search(
+        &self,
+        batch: &Batch<'_>,
+        piece: Range<usize>,
+        outputs: &mut Outputs<'_>,
+        status: i32,
+        guard: Guard<'_>,
+    ) -> Option<usize> {
         let mut cursor = batch.cursor(request(self.descriptor(), outputs));
         let found = piece.clone().find(|point| {
             let one = *point..point + 1;
-            severity(self.call(cursor.at(&one), &one, outputs, None).status) >= severity(status)
+            severity(self.call(cursor.at(&one), &one, outputs, None, guard).status) >= severity(status)
         })?;
         Some(found - piece.start)
     }

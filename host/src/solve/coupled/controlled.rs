@@ -23,8 +23,14 @@ const FIRST_STEPS: u64 = 4;
 pub(super) const MOST_STEPS: u64 = 1 << 22;
 /// Order at which the difference of two passes is assumed to fall: below the formulas' own, because of moving edges.
 const ORDER: f64 = 0.75;
-/// Largest factor between the steps of two passes.
-const MOST_MORE: u64 = 8;
+/// Part of the steps of a pass that is spread evenly.
+const EVEN: f64 = 0.25;
+/// Steps of a pass from which on its last step is cut.
+const TAILED: u64 = 4;
+/// Where the last step is cut.
+const TAIL: [f64; 3] = [0.6, 0.84, 0.94];
+/// Largest factor between the steps of two passes: a finer pass also knows better where steps are needed.
+const MOST_MORE: u64 = 3;
 /// Passes that may fail in the contact solve before the run gives up.
 const MOST_FAILURES: u32 = 4;
 
@@ -80,7 +86,9 @@ impl<'p> Coupled<'p> {
         let mut failures = 0;
         loop {
             going.stepper.return_to(system, &begin);
-            let tried = self.pass(system, going, segment, (start, until, number), (steps, cycles_per_time))?;
+            // Uneven steps could be beyond the limit that their number keeps.
+            let guide = coarse.as_ref().filter(|_| !self.has_limit());
+            let tried = self.pass(system, going, segment, (start, until, number), (steps, guide, cycles_per_time))?;
             let fine = match tried {
                 Ok(pass) => pass,
                 Err(source) => {
@@ -114,7 +122,7 @@ impl<'p> Coupled<'p> {
                 return self.accept(system, going, segment, (&begin, &fine));
             }
             going.rejected += before.steps;
-            let factor = (1.5 * (error / budget).powf(1.0 / ORDER)).ceil().min(MOST_MORE as f64) as u64;
+            let factor = (1.2 * error / budget).ceil().min(MOST_MORE as f64) as u64;
             steps = fine.steps.saturating_mul(factor.max(2));
             if steps > MOST_STEPS {
                 going.stepper.return_to(system, &begin);
@@ -141,7 +149,7 @@ impl<'p> Coupled<'p> {
         (self.plan.tolerance.unwrap_or_default() * growth.max(share * size)).max(noise)
     }
 
-    /// One pass over a stretch in equal steps; nothing of it is told but that it is going on.
+    /// One pass over a stretch; nothing of it is told but that it is going on.
     #[allow(clippy::type_complexity)] // reason: an error of the pass is for the control, one of the run is not
     fn pass(
         &self,
@@ -149,13 +157,13 @@ impl<'p> Coupled<'p> {
         going: &mut Going<'_>,
         segment: Segment<'p>,
         (start, until, number): (f64, f64, i64),
-        (steps, cycles_per_time): (u64, f64),
+        (steps, guide, cycles_per_time): (u64, Option<&Pass>, f64),
     ) -> Result<Result<Pass, AdvanceError<PointError>>, Leave> {
+        let ends = ends(start, until, steps, guide.map_or(&[], |guide| &guide.taken));
         let mut taken: Vec<Taken> = Vec::new();
         let before = going.clock;
         let mut at = start;
-        for k in 1..=steps {
-            let target = if k == steps { until } else { start + (until - start) * (k as f64 / steps as f64) };
+        for target in ends {
             while at < target {
                 let mut reach = Reach { start: at, until: target, number: number + taken.len() as i64 + 1 };
                 let accepted = match going.stepper.advance(system, segment, reach) {
@@ -204,6 +212,53 @@ impl<'p> Coupled<'p> {
         }
         Ok(fine.taken.last().map_or(0, |taken| taken.reach.number))
     }
+}
+
+/// Ends of the steps of a pass: equal ones, or such that the wear rate changes alike over each, as an earlier pass saw it
+/// change.
+///
+/// An error of local order 2 is proportional to the change times the step, so steps are as dense as its square root; a part
+/// of them is spread evenly, because a coarse pass does not see everything.
+fn ends(start: f64, until: f64, steps: u64, seen: &[Taken]) -> Vec<f64> {
+    let known: Vec<f64> = seen.iter().map(|taken| taken.accepted.change.max(0.0).sqrt()).collect();
+    let total: f64 = known.iter().filter(|weight| weight.is_finite()).sum();
+    let even = |k: u64| start + (until - start) * (k as f64 / steps as f64);
+    let mut ends: Vec<f64> = (1..steps).map(even).collect();
+    if total > 0.0 && total.is_finite() {
+        let length = until - start;
+        let weights: Vec<f64> = seen
+            .iter()
+            .zip(&known)
+            .enumerate()
+            .map(|(k, (taken, weight))| {
+                // The first step of some formulas does not know the rate that it starts from.
+                let weight = if weight.is_nan() { known.get(k + 1).copied().unwrap_or(0.0) } else { *weight };
+                let part = (taken.reach.until - taken.reach.start) / length;
+                (1.0 - EVEN) * weight / total + EVEN * part
+            })
+            .collect();
+        let sum: f64 = weights.iter().sum();
+        let (mut piece, mut before) = (0, 0.0);
+        for (k, end) in ends.iter_mut().enumerate() {
+            let wanted = sum * ((k + 1) as f64 / steps as f64);
+            while piece + 1 < weights.len() && before + weights[piece] < wanted {
+                before += weights[piece];
+                piece += 1;
+            }
+            let reach = seen[piece].reach;
+            let part = ((wanted - before) / weights[piece]).clamp(0.0, 1.0);
+            *end = reach.start + part * (reach.until - reach.start);
+        }
+    }
+    if steps >= TAILED {
+        // What a step leaves wrong at the edge of the contact fades in the next: the last ones are short, so that the
+        // pressure at the end is as good as the wear.
+        let last = ends.last().copied().unwrap_or(start);
+        ends.extend(TAIL.map(|part| last + part * (until - last)));
+    }
+    ends.push(until);
+    ends.dedup_by(|later, earlier| *later <= *earlier);
+    ends
 }
 
 /// Whether shorter steps may help.

@@ -137,7 +137,7 @@ impl System<'_> {
 
 impl<'p> Coupled<'p> {
     /// Whether steps have a stability limit at all.
-    fn has_limit(&self) -> bool {
+    pub(super) fn has_limit(&self) -> bool {
         self.solved.scheme.formula == Formula::ExplicitEuler && self.plan.material.mode != Mode::Post
     }
 

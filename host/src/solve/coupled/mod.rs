@@ -11,6 +11,7 @@ mod ladder;
 mod law_points;
 mod limit;
 mod newton;
+mod prepared;
 mod present;
 mod proportional;
 mod reference;

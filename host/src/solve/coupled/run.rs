@@ -6,15 +6,12 @@ use super::going::{Going, Leave};
 use super::rows;
 use super::segment::Segment;
 use super::stepper::{Reach, Stepper};
-use super::system::{Room, Substep, System, Work};
-use crate::contact::foundation::Foundation;
-use crate::contact::halfspace::{Boundary, HalfSpace};
-use crate::contact::surface::{height_map, std_of_gap};
-use crate::contact::{ContactModel, Solution};
-use crate::integrator::{Formula, Stages, norm};
-use crate::law::{Evaluator, Field};
-use crate::plan::{Elastic, LoadStep, Plan, SolvedPlan};
-use crate::record::{self, Cost, End, Line, MemoryLine, Observer, Record};
+use super::system::{Substep, System};
+use crate::contact::surface::height_map;
+use crate::integrator::{Formula, norm};
+use crate::law::Evaluator;
+use crate::plan::{Plan, SolvedPlan};
+use crate::record::{Cost, End, Line, Observer, Record};
 use crate::scene::ScalingKind;
 use crate::solve::SolveError;
 use crate::solve::ending::peak_memory;
@@ -28,7 +25,7 @@ pub(in crate::solve) struct Coupled<'p> {
     pub(in crate::solve) solved: &'p SolvedPlan,
     pub(in crate::solve) evaluator: &'p dyn Evaluator,
     pub(super) gap: Vec<f64>,
-    velocities: Vec<Vec<f64>>,
+    pub(super) velocities: Vec<Vec<f64>>,
 }
 
 impl<'p> Coupled<'p> {
@@ -57,117 +54,6 @@ impl<'p> Coupled<'p> {
 
     pub(in crate::solve) fn points(&self) -> usize {
         self.gap.len()
-    }
-
-    pub(in crate::solve) fn geometry(&self) -> record::Geometry<'static> {
-        let cells = self.solved.cells;
-        let size = [0, 1].map(|axis| cells.spacing[axis] * cells.counts[axis] as f64);
-        // A line has no width: its one row of cells lies on y = 0.
-        let origin = if cells.dimension == 2 { [0.0, -0.5 * size[1]] } else { [0.0, 0.0] };
-        record::Geometry::Grid(record::Grid { cells: cells.counts, size, origin })
-    }
-
-    /// Whether points of one scene slide over different distances.
-    fn distances(&self) -> bool {
-        let steps = self.plan.blocks.iter().flat_map(|block| &block.steps);
-        steps.into_iter().any(|step| step.velocity_file.is_some() || step.stick.is_some_and(|stick| stick > 0.0))
-    }
-
-    pub(in crate::solve) fn memory(&self) -> Vec<MemoryLine> {
-        let cells = self.gap.len();
-        let line = |what: &str, bytes: usize| MemoryLine { what: what.to_owned(), bytes: bytes as u64 };
-        let mut lines = vec![
-            line("initial gap", 8 * cells),
-            line("wear depth, at the start and the end of a step", 16 * cells),
-            line("contact pressure, now and at the start of a step", 16 * cells),
-            line("wear rates of the stages", Stages::bytes(self.solved.scheme.formula, cells)),
-            line("gap of a stage", 8 * cells),
-        ];
-        if self.solved.scheme.slope != crate::plan::Slope::Proportional
-            && self.solved.scheme.formula != Formula::ExplicitEuler
-        {
-            lines.push(line("linearisation of the law", 24 * cells));
-        }
-        let states = self.plan.initial_state.len();
-        if states > 0 {
-            lines.push(line("state variables, at the start and the end of a step", 16 * cells * states));
-        }
-        if self.distances() {
-            lines.push(line("sliding distances and velocities", 16 * cells));
-        }
-        lines
-    }
-
-    pub(in crate::solve) fn segments_planned(&self) -> u64 {
-        let substeps = self.plan.substeps.unwrap_or(1);
-        self.plan.blocks.iter().map(|block| block.count * block.steps.len() as u64 * substeps).sum()
-    }
-
-    fn model(&self, threads: usize) -> Box<dyn ContactModel> {
-        match self.solved.elastic {
-            Elastic::Foundation(stiffness) => Box::new(Foundation::new(self.solved.cells, stiffness)),
-            Elastic::HalfSpace { modulus, periodic, datum } => {
-                let boundary = if periodic { Boundary::Periodic } else { Boundary::Free };
-                Box::new(HalfSpace::new(self.solved.cells, modulus, boundary, datum, threads))
-            }
-        }
-    }
-
-    pub(super) fn system(&self, threads: usize) -> System<'p> {
-        let cells = self.gap.len();
-        let first = self.plan.blocks.first().and_then(|block| block.steps.first());
-        let segment = Segment {
-            step: first.unwrap_or(const { &LoadStep::NOTHING }),
-            start: 0.0,
-            length: 0.0,
-            represented: 0.0,
-            scale: 1.0,
-            number: 1,
-            cycle: 0,
-        };
-        let reads_wear = self.plan.fields.contains(Field::AccumulatedWear);
-        System {
-            plan: self.plan,
-            solved: self.solved,
-            evaluator: self.evaluator,
-            model: self.model(threads),
-            gap_scale: std_of_gap(&self.solved.cells, &self.gap),
-            initial_gap: self.gap.clone(),
-            pressure: vec![0.0; cells],
-            solution: Solution::default(),
-            closed: Vec::new(),
-            law: Default::default(),
-            substep: Substep { segment, start: 0.0, dt: 0.0, number: 1 },
-            slides: Vec::new(),
-            remembered_wear: if reads_wear { vec![0.0; cells] } else { Vec::new() },
-            distance: if self.distances() { vec![0.0; cells] } else { Vec::new() },
-            uniform_distance: 0.0,
-            state: self.plan.initial_state.repeat(cells),
-            end_state: self.plan.initial_state.repeat(cells),
-            work: Work::default(),
-            room: Room::default(),
-            frozen: None,
-            steady: None,
-        }
-    }
-
-    /// Relative velocities of the cells in a load step; empty where all slide alike.
-    pub(super) fn slides(&self, step: &LoadStep) -> Result<Vec<f64>, SolveError> {
-        let stick = step.stick.filter(|stick| *stick > 0.0);
-        let mut slides = match (step.velocity_file, stick) {
-            (Some(file), _) => self.velocities[file].clone(),
-            (None, Some(_)) => vec![1.0; self.gap.len()],
-            (None, None) => Vec::new(),
-        };
-        if let Some(stick) = stick {
-            let radii = self.solved.surface.distances(&self.solved.cells, self.solved.is_periodic())?;
-            for (slide, radius) in slides.iter_mut().zip(radii) {
-                if radius < stick {
-                    *slide = 0.0;
-                }
-            }
-        }
-        Ok(slides)
     }
 
     /// Goes through the plan on at most `threads` threads (0: as many as the machine has).
@@ -409,7 +295,7 @@ impl<'p> Coupled<'p> {
             };
             system.press(driven.control, &going.stepper.wear).map_err(advance)?;
         }
-        going.stepper.fresh = false;
+        (going.stepper.fresh, going.stepper.known) = (false, false);
         going.clock.temperature = driven.temperature;
         if first {
             going.history.rows.push(rows::row(system, &going.stepper.wear, &going.clock, 0.0, 1.0));

@@ -3,7 +3,7 @@
 use super::segment::Segment;
 use super::system::{Substep, System};
 use crate::contact::Solution;
-use crate::integrator::{AdvanceError, Answering, Formula, Reply, Span, Stages, Tried};
+use crate::integrator::{AdvanceError, Answering, Formula, Reply, Span, Stages, Tried, norm};
 use crate::law::{Claim, Field};
 use crate::plan::Elastic;
 use crate::solve::PointError;
@@ -17,6 +17,8 @@ pub(super) struct Accepted {
     pub(super) rejected: u64,
     /// Whether backward Euler stood in for a second-order step.
     pub(super) replaced: bool,
+    /// L2 norm over the cells of the change of the wear rate over the step times its length; NaN: not known.
+    pub(super) change: f64,
 }
 
 /// Takes steps; arrays are over the cells.
@@ -28,6 +30,8 @@ pub(super) struct Stepper {
     start_approach: f64,
     /// Whether `stages.start` is the rate at the start of the next step.
     pub(super) fresh: bool,
+    /// Whether `stages.start` is a rate of this stretch of loading at all.
+    pub(super) known: bool,
     /// Smallest represented step; 0: whatever numbers can tell apart.
     smallest: f64,
     /// Whether second-order steps are held to the rule below; only a study of what they do alone lifts it.
@@ -74,6 +78,7 @@ impl Stepper {
             start_pressure: vec![0.0; cells],
             start_approach: 0.0,
             fresh: false,
+            known: false,
             smallest,
             guards: true,
         }
@@ -96,7 +101,7 @@ impl Stepper {
     /// Goes back to an earlier moment.
     pub(super) fn return_to(&mut self, system: &mut System<'_>, moment: &Moment) {
         self.wear.clone_from(&moment.wear);
-        self.fresh = moment.fresh;
+        (self.fresh, self.known) = (moment.fresh, moment.fresh);
         if moment.fresh {
             self.stages.start.clone_from(&moment.rate);
         }
@@ -149,6 +154,14 @@ impl Stepper {
             }
             system.go_back(&self.start_pressure);
         }
+        accepted.change = match self.known {
+            true => {
+                accepted.length
+                    * segment.scale
+                    * norm(self.stages.end.iter().zip(&self.stages.start).map(|(end, start)| end - start))
+            }
+            false => f64::NAN,
+        };
         self.commit(system, reach.start, accepted.length);
         Ok(accepted)
     }
@@ -161,7 +174,7 @@ impl Stepper {
             if let Reply::Cut(factor) = system.rate(driven, &mut self.stages.start)? {
                 return Ok(Tried::Cut(factor));
             }
-            self.fresh = true;
+            (self.fresh, self.known) = (true, true);
         }
         self.stages.step(system, formula, span, &self.wear, &mut self.end)
     }
@@ -246,6 +259,7 @@ impl Stepper {
         let Stages { start: first, end: last, .. } = &mut self.stages;
         std::mem::swap(first, last);
         self.fresh = system.solved.scheme.rate;
+        self.known = true;
         if !system.state.is_empty() {
             system.state.copy_from_slice(&system.end_state);
         }

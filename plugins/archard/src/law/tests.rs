@@ -21,6 +21,15 @@ struct Answered {
 
 /// Evaluates with constants [K, H, m, n] over a step `dt`.
 fn evaluate(constants: [f64; 4], dt: f64, pressure: &[f64], velocity: &[f64]) -> Answered {
+    let [answered, alone] = [true, false].map(|slope| ask(constants, dt, pressure, velocity, slope));
+    let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&alone.increment), bits(&answered.increment), "without and with the slope");
+    // A slope may overflow where the increment does not.
+    assert!(alone.status <= answered.status);
+    answered
+}
+
+fn ask(constants: [f64; 4], dt: f64, pressure: &[f64], velocity: &[f64], with_slope: bool) -> Answered {
     let points = pressure.len();
     let column = |values: &[f64]| abi::Column { ptr: values.as_ptr(), step: i64::from(values.len() == points) };
     let columns = constants.each_ref().map(|c| abi::Column { ptr: c, step: 0 });
@@ -35,7 +44,10 @@ fn evaluate(constants: [f64; 4], dt: f64, pressure: &[f64], velocity: &[f64]) ->
         (view.pressure, view.velocity) = (column(pressure), column(velocity));
         (view.constants, view.constant_count) = (columns.as_ptr(), 4);
         output.struct_size = size_of::<Output>() as i64;
-        (output.increment, output.d_pressure) = (increment.as_mut_ptr(), slope.as_mut_ptr());
+        output.increment = increment.as_mut_ptr();
+        if with_slope {
+            output.d_pressure = slope.as_mut_ptr();
+        }
         (output.text, output.text_size, output.first_bad) = (text.as_mut_ptr(), 128, -1);
         fill::<Archard>(&mut table);
         let mut instance = null_mut();

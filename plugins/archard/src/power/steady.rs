@@ -28,8 +28,14 @@ const LEAST: u64 = 0x2b2b_ff2f_0000_0000;
 pub fn steady(p: &[f64], v: &[f64], (k, h, dt): (f64, f64, f64), out: &mut [f64]) -> bool {
     #[cfg(target_arch = "x86_64")]
     {
-        let usual = |x: f64| (1.0 / WIDE..=WIDE).contains(&x);
-        if usual(k) & usual(h) & usual(dt) && is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        // Bits of positive numbers are in order; those of negative ones and of no number lie above.
+        let least = const { (1.0 / WIDE).to_bits() };
+        let above = k.to_bits().wrapping_sub(least).max(h.to_bits().wrapping_sub(least));
+        let above = above.max(dt.to_bits().wrapping_sub(least));
+        if above <= const { WIDE.to_bits() - (1.0 / WIDE).to_bits() }
+            && is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
+        {
             // SAFETY: the processor has just been asked for both features.
             return unsafe {
                 match out.len() {

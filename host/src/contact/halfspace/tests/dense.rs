@@ -11,9 +11,8 @@ fn eliminate(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
         right.swap(column, pivot);
         for row in column + 1..n {
             let factor = matrix[row][column] / matrix[column][column];
-            for k in column..n {
-                matrix[row][k] -= factor * matrix[column][k];
-            }
+            let (above, below) = matrix.split_at_mut(row);
+            below[0].iter_mut().zip(&above[column]).for_each(|(value, pivot)| *value -= factor * pivot);
             right[row] -= factor * right[column];
         }
     }
@@ -41,7 +40,7 @@ impl Dense {
             model.displacement(&one, &mut u);
             u.iter().enumerate().for_each(|(to, u)| compliance[to][from] = *u);
         }
-        Dense { cells: model.cells, boundary: model.boundary, compliance }
+        Dense { cells: model.cells, boundary: model.kernel.boundary, compliance }
     }
 
     /// A + b over a set.
@@ -52,7 +51,7 @@ impl Dense {
             let (mut one, mut acting) = (vec![0.0; count], vec![0.0; count]);
             one[from] = 1.0;
             if problem.smoothed {
-                local::smoothed(&self.cells, self.boundary, &one, &mut acting)
+                local::smoothed(self.cells.counts, [self.boundary; 2], &one, &mut acting)
             } else {
                 acting = one
             }
@@ -204,9 +203,20 @@ fn a_smoothed_diagonal_acts_on_the_smoothed_pressure() {
         let datum = Some(9.0 * cells.counts[0] as f64 * cells.spacing[0]);
         let mut model = HalfSpace::new(cells, MODULUS, boundary, datum, 1);
         let load = load(&cells, &mut numbers);
-        let diagonal = Diagonal::Uniform(0.8 * cells.spacing[0] / MODULUS);
-        let under_load = Problem { diagonal, smoothed: true, ..problem(&gap, Control::Load(load)) };
-        agrees(&mut model, &under_load, "smoothed");
+        let compliance = 0.8 * cells.spacing[0] / MODULUS;
+        let per_point: Vec<f64> =
+            numbers.many(cells.count()).iter().map(|r| (2.0 * r - 0.8).max(0.0) * compliance).collect();
+        for diagonal in [Diagonal::Uniform(compliance), Diagonal::PerPoint(&per_point)] {
+            let under_load = Problem { diagonal, smoothed: true, ..problem(&gap, Control::Load(load)) };
+            let what = format!("smoothed {cells:?} {boundary:?} {diagonal:?}");
+            agrees(&mut model, &under_load, &what);
+            let approach = model.solve(&under_load, &mut vec![0.0; cells.count()]).unwrap().approach;
+            agrees(
+                &mut model,
+                &Problem { control: Control::Approach(approach), ..under_load },
+                &format!("held, {what}"),
+            );
+        }
     }
 }
 

@@ -4,9 +4,10 @@ mod answers;
 mod dense;
 mod sums;
 mod units;
+mod windows;
 
 use super::*;
-use crate::contact::Diagonal;
+use crate::contact::{Control, Diagonal};
 
 /// Numbers in (0, 1) that look random.
 pub struct Numbers(u64);

@@ -1,0 +1,144 @@
+//! A first guess from coarser cells, each level started from the one with cells twice as large.
+
+use super::Boundary;
+use super::kernel::Kernel;
+use super::patch::Patch;
+use super::search::{Accuracy, search};
+use super::window::{Window, range};
+
+/// Cells up to which a grid is not made coarser.
+const ENOUGH_3D: usize = 40 * 40;
+const ENOUGH_2D: usize = 100;
+/// Fewest cells along an axis that is made coarser.
+const FEWEST: usize = 16;
+/// Error of a guess, over the largest displacement.
+const ROUGH: f64 = 1e-3;
+
+/// A problem on all cells of a level, in scaled units.
+pub struct Level {
+    /// Compliance.
+    pub kernel: Kernel,
+    /// Gap `[cells]`.
+    pub gap: Vec<f64>,
+    /// Local compliance `[cells]`, or one for all, or none.
+    pub local: Vec<f64>,
+    /// Sum of all pressures, or the approach is 0.
+    pub sum: Option<f64>,
+    /// Fine cells in one of these, in x and y.
+    factor: [usize; 2],
+}
+
+/// Pressures on a window of a level.
+pub struct Guess {
+    window: Window,
+    pressure: Vec<f64>,
+    /// The first column and row of its contact, and the size of that.
+    contact: Option<([usize; 2], [usize; 2])>,
+    /// Cells of the finer level in one of these.
+    factor: [usize; 2],
+    /// Iterations and pairs of transforms that it cost.
+    pub iterations: u64,
+    /// Pairs of transforms that it cost.
+    pub pairs: u64,
+}
+
+impl Guess {
+    /// The window of the finer level around its contact; `None`: there is no contact.
+    pub fn window(&self, finer: &Kernel) -> Option<Window> {
+        let (first, counts) = self.contact?;
+        let axes = [0, 1];
+        let margin = axes.map(|axis| if finer.counts[axis] > 1 { 2 + counts[axis] / 16 } else { 0 });
+        let first = axes.map(|axis| first[axis] * self.factor[axis]);
+        let counts = axes.map(|axis| counts[axis] * self.factor[axis] + 2 * margin[axis]);
+        Some(Window::over(finer, first, counts, margin))
+    }
+
+    /// The pressures on a window of the finer level: those of the cells that its cells are parts of.
+    pub fn on(&self, window: &Window) -> Vec<f64> {
+        let at = |cell: usize| [cell % window.all[0] / self.factor[0], cell / window.all[0] / self.factor[1]];
+        window.cells().map(|cell| self.window.place(at(cell)).map_or(0.0, |place| self.pressure[place])).collect()
+    }
+}
+
+/// Whether a level is worth a guess.
+pub fn worthwhile(kernel: &Kernel) -> bool {
+    factors(kernel) != [1, 1]
+}
+
+/// Which axes can be halved.
+fn factors(kernel: &Kernel) -> [usize; 2] {
+    let [nx, ny] = kernel.counts;
+    let enough = if kernel.flat { ENOUGH_2D } else { ENOUGH_3D };
+    let halves = |count: usize| {
+        let fits = kernel.boundary == Boundary::Free || count.is_multiple_of(2);
+        if nx * ny > enough && count >= FEWEST && fits { 2 } else { 1 }
+    };
+    [halves(nx), halves(ny)]
+}
+
+/// The next coarser level of cells whose gap and local compliance are given; finite gaps are averaged.
+pub fn coarser(kernel: &Kernel, sum: Option<f64>, gap: impl Fn(usize) -> f64, local: &[f64]) -> Level {
+    let factor = factors(kernel);
+    let [nx, ny] = kernel.counts;
+    let counts = [nx.div_ceil(factor[0]), ny.div_ceil(factor[1])];
+    let mut spacing = kernel.spacing;
+    spacing.iter_mut().zip(factor).for_each(|(spacing, factor)| *spacing *= factor as f64);
+    let mean = |cell: usize, of: &dyn Fn(usize) -> f64| {
+        let (x, y) = (cell % counts[0] * factor[0], cell / counts[0] * factor[1]);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for row in y..ny.min(y + factor[1]) {
+            for value in (x..nx.min(x + factor[0])).map(|x| of(row * nx + x)).filter(|value| value.is_finite()) {
+                sum += value;
+                count += 1.0;
+            }
+        }
+        if count > 0.0 { sum / count } else { f64::INFINITY }
+    };
+    let cells = counts[0] * counts[1];
+    let coarse_local =
+        if local.len() > 1 { (0..cells).map(|cell| mean(cell, &|fine| local[fine])).collect() } else { local.to_vec() };
+    Level {
+        kernel: Kernel::new(kernel.flat, kernel.boundary, counts, spacing, kernel.soft, kernel.datum),
+        gap: (0..cells).map(|cell| mean(cell, &gap)).collect(),
+        local: coarse_local,
+        sum: sum.map(|sum| sum / (factor[0] * factor[1]) as f64),
+        factor,
+    }
+}
+
+/// Guesses the pressures of a level, from coarser ones.
+pub fn guess(mut level: Level, threads: usize) -> Guess {
+    let (window, mut pressure, mut iterations, mut pairs) = if worthwhile(&level.kernel) {
+        let guess = guess(coarser(&level.kernel, level.sum, |cell| level.gap[cell], &level.local), threads);
+        let window =
+            guess.window(&level.kernel).unwrap_or_else(|| Window::lowest(&level.kernel, |cell| level.gap[cell]));
+        (window, guess.on(&window), guess.iterations, guess.pairs)
+    } else {
+        let window = Window::whole(&level.kernel);
+        (window, vec![0.0; level.gap.len()], 0, 0)
+    };
+    let mut convolution = level.kernel.convolution(window.sizes, threads);
+    let mut patch = Patch {
+        wraps: window.wraps(level.kernel.boundary),
+        kernel: &level.kernel,
+        convolution: &mut convolution,
+        counts: window.sizes.0,
+        gap: window.cells().map(|cell| level.gap[cell]).collect(),
+        local: if level.local.len() > 1 {
+            window.cells().map(|cell| level.local[cell]).collect()
+        } else {
+            level.local.clone()
+        },
+        smoothed: false,
+        sum: level.sum,
+        threads,
+        pairs: 0,
+    };
+    let outcome = search(&mut patch, Accuracy { tolerance: 0.0, scale: 0.0, rough: ROUGH }, &mut pressure);
+    iterations += outcome.iterations;
+    pairs += patch.pairs;
+    let [nx, _] = level.kernel.counts;
+    let loaded = |cell: usize| window.place([cell % nx, cell / nx]).is_some_and(|place| pressure[place] > 0.0);
+    let contact = range(&level.kernel, loaded);
+    Guess { window, pressure, contact, factor: level.factor, iterations, pairs }
+}

@@ -1,0 +1,54 @@
+//! Passes over long arrays, in chunks whose bounds do not depend on the number of threads: so sums have the same bits.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+/// Numbers in a chunk.
+const CHUNK: usize = 8192;
+/// Length from which threads pay for themselves.
+const WORTH: usize = 1 << 16;
+
+/// What a function makes of each chunk of 0..count, in order.
+pub fn each_chunk<T: Send>(threads: usize, count: usize, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    let chunks = count.div_ceil(CHUNK);
+    let one = |chunk: usize| of(chunk * CHUNK..count.min((chunk + 1) * CHUNK));
+    if threads > 1 && count >= WORTH {
+        (0..chunks).into_par_iter().map(one).collect()
+    } else {
+        (0..chunks).map(one).collect()
+    }
+}
+
+/// Sum of a function over 0..count.
+pub fn sum(threads: usize, count: usize, of: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let part = |range: Range<usize>| {
+        // Four at a time, so that additions do not wait for each other.
+        let mut lanes = [0.0; 4];
+        let whole = range.start + range.len() / 4 * 4;
+        for at in (range.start..whole).step_by(4) {
+            for (lane, sum) in lanes.iter_mut().enumerate() {
+                *sum += of(at + lane);
+            }
+        }
+        (whole..range.end).fold((lanes[0] + lanes[1]) + (lanes[2] + lanes[3]), |sum, at| sum + of(at))
+    };
+    if count <= CHUNK { part(0..count) } else { each_chunk(threads, count, part).into_iter().sum() }
+}
+
+/// Sum of products.
+pub fn dot(threads: usize, a: &[f64], b: &[f64]) -> f64 {
+    sum(threads, a.len().min(b.len()), |i| a[i] * b[i])
+}
+
+/// Changes every number of an array, knowing its place.
+pub fn change(threads: usize, values: &mut [f64], to: impl Fn(usize, f64) -> f64 + Sync) {
+    let one = |first: usize, values: &mut [f64]| {
+        values.iter_mut().enumerate().for_each(|(at, value)| *value = to(first + at, *value));
+    };
+    if threads > 1 && values.len() >= WORTH {
+        values.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, values)| one(chunk * CHUNK, values));
+    } else {
+        one(0, values);
+    }
+}

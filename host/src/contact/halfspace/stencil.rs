@@ -1,0 +1,155 @@
+//! A cheap near inverse of A + b: what a displacement of one cell does to the pressures around it.
+//!
+//! The inverse of the compliance falls off like 1/r^3 (1/r^2 in 2-D), so a few cells around hold nearly all of it. Cut
+//! off there and confined to the cells in contact it is still positive definite: on the whole grid a uniform
+//! displacement would need no pressure, so the entries off the diagonal are negative and those that are left out only
+//! make the diagonal dominate.
+
+use std::f64::consts::PI;
+
+use super::contact_set::ContactSet;
+use super::patch::Patch;
+
+/// Cells on either side.
+const REACH_3D: usize = 3;
+const REACH_2D: usize = 16;
+/// Size of the periodic grid that the entries are computed on.
+const GRID_3D: usize = 32;
+const GRID_2D: usize = 128;
+
+/// A symmetric stencil, and a factor for each cell of the set where the local compliance varies.
+pub struct Stencil {
+    reach: [usize; 2],
+    /// `[2 reach y + 1][2 reach x + 1]`.
+    entries: Vec<f64>,
+    /// Values around the window, `reach` cells beyond it on every side; zero off the set.
+    field: Vec<f64>,
+    /// Cells in a row of `field`.
+    pitch: usize,
+    /// Places of the cells of the set in `field`.
+    places: Vec<u32>,
+    /// One for each cell of the set, or none.
+    factors: Vec<f64>,
+}
+
+impl Stencil {
+    /// For the cells of a window with this local compliance.
+    pub fn new(patch: &Patch<'_>, set: &ContactSet) -> Stencil {
+        let [nx, ny] = patch.counts;
+        let flat = patch.kernel.flat;
+        let reach = if flat { [REACH_2D, 0] } else { [REACH_3D.min(nx / 2), REACH_3D.min(ny / 2)] };
+        let size = if flat { [GRID_2D, 1] } else { [GRID_3D; 2] };
+        let reach = [reach[0].min(nx / 2), reach[1]];
+        // What a cell alone would give, to compare the local compliance with.
+        let zero = entries(patch, size, reach, 0.0);
+        let own = 1.0 / zero[zero.len() / 2];
+        let (entries, factors) = if patch.varies() {
+            let stiffness = |cell: &u32| 1.0 / (own + patch.local(*cell as usize));
+            let mean = set.cells.iter().map(stiffness).sum::<f64>() / set.len().max(1) as f64;
+            let entries = entries(patch, size, reach, (1.0 / mean - own).max(0.0));
+            let factors = set.cells.iter().map(|cell| (stiffness(cell) / mean).sqrt()).collect();
+            (entries, factors)
+        } else {
+            (entries(patch, size, reach, patch.local(0)), Vec::new())
+        };
+        let pitch = nx + 2 * reach[0];
+        let places = set.cells.iter().map(|cell| {
+            let (x, y) = (*cell as usize % nx, *cell as usize / nx);
+            ((y + reach[1]) * pitch + x + reach[0]) as u32
+        });
+        let places = places.collect();
+        Stencil { reach, entries, field: vec![0.0; pitch * (ny + 2 * reach[1])], pitch, places, factors }
+    }
+
+    /// The entry of a cell for itself.
+    pub fn diagonal(&self) -> f64 {
+        self.entries[self.entries.len() / 2]
+    }
+
+    /// out = the near inverse of A + b, times values on the set.
+    pub fn apply(&mut self, patch: &Patch<'_>, values: &[f64], out: &mut [f64]) {
+        if self.factors.is_empty() {
+            self.places.iter().zip(values).for_each(|(place, value)| self.field[*place as usize] = *value);
+        } else {
+            for ((place, value), factor) in self.places.iter().zip(values).zip(&self.factors) {
+                self.field[*place as usize] = factor * value;
+            }
+        }
+        self.wrap(patch);
+        let [rx, ry] = self.reach;
+        let (wide, high) = (2 * rx + 1, 2 * ry + 1);
+        let before = ry * self.pitch + rx;
+        let act = |at: usize, _: f64| {
+            let first = self.places[at] as usize - before;
+            let mut sum = 0.0;
+            for row in 0..high {
+                let values = &self.field[first + row * self.pitch..][..wide];
+                let entries = &self.entries[row * wide..][..wide];
+                sum += values.iter().zip(entries).map(|(value, entry)| value * entry).sum::<f64>();
+            }
+            sum * self.factors.get(at).copied().unwrap_or(1.0)
+        };
+        super::passes::change(patch.threads, out, act);
+    }
+
+    /// Repeats the field beyond the sides where the window is the whole of a periodic surface.
+    fn wrap(&mut self, patch: &Patch<'_>) {
+        let ([nx, ny], [rx, ry], pitch) = (patch.counts, self.reach, self.pitch);
+        if patch.wraps[0] {
+            for row in self.field.chunks_exact_mut(pitch).skip(ry).take(ny) {
+                row.copy_within(nx..nx + rx, 0);
+                row.copy_within(rx..2 * rx, nx + rx);
+            }
+        }
+        if patch.wraps[1] {
+            self.field.copy_within(ny * pitch..(ny + ry) * pitch, 0);
+            self.field.copy_within(ry * pitch..2 * ry * pitch, (ny + ry) * pitch);
+        }
+    }
+}
+
+/// The entries: the inverse transform of 1 / (a + b m), a being the compliance of a mode and m what smoothing leaves of it.
+fn entries(patch: &Patch<'_>, size: [usize; 2], reach: [usize; 2], local: f64) -> Vec<f64> {
+    let wave = |k: usize, axis: usize| 2.0 * PI * k as f64 / size[axis] as f64;
+    let smooth = |k: usize, axis: usize| if patch.smoothed { (0.5 * wave(k, axis)).cos().powi(2) } else { 1.0 };
+    let stiffness = |x: usize, y: usize| {
+        let compliance = patch.kernel.mode([x, y], size);
+        let all = compliance + local * smooth(x, 0) * smooth(y, 1);
+        if compliance == 0.0 { 0.0 } else { 1.0 / all }
+    };
+    let cells = (size[0] * size[1]) as f64;
+    let (wide, high) = (2 * reach[0] + 1, 2 * reach[1] + 1);
+    let mut entries = vec![0.0; wide * high];
+    // First over x for each wave in y, then over y.
+    let mut along = vec![0.0; (reach[0] + 1) * size[1]];
+    for y in 0..size[1] {
+        for x in 0..=reach[0] {
+            let terms = (0..size[0]).map(|k| stiffness(k, y) * (wave(k, 0) * x as f64).cos());
+            along[x * size[1] + y] = terms.sum::<f64>() / cells;
+        }
+    }
+    for y in 0..=reach[1] {
+        for x in 0..=reach[0] {
+            let value: f64 = (0..size[1]).map(|k| along[x * size[1] + k] * (wave(k, 1) * y as f64).cos()).sum();
+            for (row, column) in [
+                (reach[1] - y, reach[0] - x),
+                (reach[1] - y, reach[0] + x),
+                (reach[1] + y, reach[0] - x),
+                (reach[1] + y, reach[0] + x),
+            ] {
+                entries[row * wide + column] = value;
+            }
+        }
+    }
+    if patch.smoothed {
+        dominate(&mut entries);
+    }
+    entries
+}
+
+/// Raises the diagonal where it does not outweigh the rest, which smoothing can bring about.
+fn dominate(entries: &mut [f64]) {
+    let middle = entries.len() / 2;
+    let all: f64 = entries.iter().map(|entry| entry.abs()).sum();
+    entries[middle] = entries[middle].max(1.02 * (all - entries[middle].abs()));
+}
