@@ -137,12 +137,12 @@ fn steps(console: &Console, ladder: &Ladder) -> String {
     let mut text = String::new();
     let mut groups: Vec<(crate::solve::Pressed, bool)> = Vec::new();
     for row in &ladder.rows {
-        if !groups.contains(&(row.control, row.frozen)) {
-            groups.push((row.control, row.frozen));
+        if !groups.contains(&(row.control, row.held)) {
+            groups.push((row.control, row.held));
         }
     }
-    for (control, frozen) in groups {
-        let contact = if frozen { "contact set as it is" } else { "contact that may change" };
+    for (control, held) in groups {
+        let contact = if held { "contact held to the cells of the start" } else { "contact as it comes" };
         let title = format!(
             "{} steps of r / stiffness each (the explicit limit is r = 2), given {}, {contact}",
             ladder.steps,
@@ -151,8 +151,7 @@ fn steps(console: &Console, ladder: &Ladder) -> String {
         text.push_str(&format!("\n{}\n", console.headline(&title)));
         let names = ["r", "method", "roughness", "ripple", "p centre", "p lowest", "wear/reach", "error", "comes out"];
         let mut rows = vec![names.map(str::to_owned).to_vec()];
-        let group: Vec<&Row> =
-            ladder.rows.iter().filter(|row| row.control == control && row.frozen == frozen).collect();
+        let group: Vec<&Row> = ladder.rows.iter().filter(|row| row.control == control && row.held == held).collect();
         for row in &group {
             rows.push(cells(row, beyond_the_grid(&group, row)));
         }
@@ -207,7 +206,7 @@ fn cells(row: &Row, none_tried: bool) -> Vec<String> {
                 short(seen.ripple),
                 short(seen.center_pressure),
                 short(seen.lowest_pressure),
-                seen.wear_over_reach.map_or_else(|| "-".to_owned(), short),
+                short(seen.wear_over_reach),
                 short(seen.error),
                 format!("{words}{stepped}"),
             ]
@@ -268,7 +267,7 @@ fn overworn(ladder: &Ladder) -> Vec<String> {
             ladder.rows.iter().filter(|row| row.method == method && row.outcome.trouble().is_some()).collect();
         let Some(first) = wrong.iter().map(|row| row.ratio).min_by(f64::total_cmp) else { continue };
         let worst = wrong.iter().filter_map(|row| match &row.outcome {
-            Outcome::Seen(seen) => seen.wear_over_reach,
+            Outcome::Seen(seen) => Some(seen.wear_over_reach),
             _ => None,
         });
         let worst = worst.fold(0.0, f64::max);

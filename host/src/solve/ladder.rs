@@ -95,8 +95,9 @@ impl Outcome {
 pub struct Row {
     /// What presses.
     pub control: Pressed,
-    /// Whether the contact set is that of the start throughout.
-    pub frozen: bool,
+    /// Whether nothing touches outside the cells that touched at the start, so that long steps under a load stay on the
+    /// grid.
+    pub held: bool,
     /// The method.
     pub method: String,
     /// Length of a step in units of 1 / stiffness: the explicit limit lies at 2.

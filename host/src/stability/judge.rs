@@ -115,8 +115,8 @@ pub struct Seen {
     pub lowest_pressure: f64,
     /// Deepest overlap over the spread of the initial gap.
     pub overlap: f64,
-    /// Largest wear over what could be reached at any point; `None`: no bound is known.
-    pub wear_over_reach: Option<f64>,
+    /// Largest wear over what could be reached at any point.
+    pub wear_over_reach: f64,
     /// Relative L2 distance of the new wear depths from those of the refined run.
     pub error: f64,
     /// Steps in which the second-order method was replaced by backward Euler.
@@ -157,7 +157,7 @@ impl Seen {
     /// Everything that is wrong; nothing: positive, smooth and bounded.
     #[must_use]
     pub fn faults(&self) -> Vec<Fault> {
-        let numbers = [self.roughness, self.ripple, self.center_pressure, self.lowest_pressure, self.error];
+        let numbers = [self.roughness, self.ripple, self.center_pressure, self.wear_over_reach, self.error];
         if numbers.iter().any(|number| !number.is_finite()) {
             return vec![Fault::Diverged];
         }
@@ -168,7 +168,7 @@ impl Seen {
         if self.lowest_pressure < -NEGATIVE {
             faults.push(Fault::Pulls);
         }
-        if self.wear_over_reach.is_some_and(|part| part > OVER_WORN || part.is_nan()) {
+        if self.wear_over_reach > OVER_WORN {
             faults.push(Fault::OverWorn);
         }
         if self.overlap > OVERLAP {
@@ -230,13 +230,13 @@ mod tests {
 
     #[test]
     fn each_fault_has_its_bar() {
-        let fine = Seen { center_pressure: 1.0, wear_over_reach: Some(1.0), ..Seen::default() };
+        let fine = Seen { center_pressure: 1.0, wear_over_reach: 1.0, ..Seen::default() };
         assert_eq!(fine.faults(), []);
         let with = |seen: Seen| seen.faults();
         assert_eq!(with(Seen { ripple: 1.1, ..fine.clone() }), [Fault::Rough]);
         assert_eq!(with(Seen { roughness: 2.0, ..fine.clone() }), [Fault::Rough]);
         assert_eq!(with(Seen { lowest_pressure: -0.01, ..fine.clone() }), [Fault::Pulls]);
-        assert_eq!(with(Seen { wear_over_reach: Some(2.4), ..fine.clone() }), [Fault::OverWorn]);
+        assert_eq!(with(Seen { wear_over_reach: 2.4, ..fine.clone() }), [Fault::OverWorn]);
         assert_eq!(with(Seen { overlap: 0.1, ..fine.clone() }), [Fault::Overlaps]);
         assert_eq!(with(Seen { ripple: f64::NAN, ..fine }), [Fault::Diverged]);
     }

@@ -144,8 +144,8 @@ impl<'p> Coupled<'p> {
         });
         let start = Start::new(self, present, &measured);
         let set = start.set.clone();
-        for frozen in [true, false] {
-            let how = |formula, guards| How { formula, guards, control, frozen: frozen.then_some(&set[..]) };
+        for held in [true, false] {
+            let how = |formula, guards| How { formula, guards, control, held: held.then_some(&set[..]) };
             let spans = RATIOS.map(|ratio| f64::from(STEPS) * ratio / stiffness);
             let best = if self.solved.scheme.rate { Formula::TrBdf2 } else { Formula::ImplicitEuler };
             let refined = self.moments(&start, how(best, true), &spans, goes_on);
@@ -155,7 +155,7 @@ impl<'p> Coupled<'p> {
                 let mut row = |method: &str, outcome: Outcome| {
                     ladder.rows.push(Row {
                         control: pressed,
-                        frozen,
+                        held,
                         method: method.to_owned(),
                         ratio,
                         step: ratio / stiffness,

@@ -108,10 +108,7 @@ impl System<'_> {
         wants_mode: bool,
     ) -> Result<Measured, PointError> {
         let (slopes, left_out) = self.slopes(driven)?;
-        let set: Vec<bool> = match &self.frozen {
-            Some(set) => set.clone(),
-            None => self.pressure.iter().map(|p| *p > 0.0).collect(),
-        };
+        let set: Vec<bool> = self.pressure.iter().map(|p| *p > 0.0).collect();
         let touching = set.iter().filter(|on| **on).count();
         let periodic = matches!(self.solved.elastic, Elastic::HalfSpace { periodic: true, .. });
         let basis = match (self.plan.material.average, self.smoothed()) {

@@ -187,7 +187,7 @@ impl System<'_> {
             let line = line[cell] + diagonal[cell] * driving;
             let share = pressure.max(if pressure > 0.0 { 0.0 } else { point[cell] }) / largest;
             sum += share * (law - line).abs();
-            weight += pressure.max(0.0) / largest;
+            weight += pressure / largest;
             shares += share;
         }
         // Where the lines left no pressure at all, the points of linearisation are what is judged: the line of a concave

@@ -101,7 +101,6 @@ impl<'p> Coupled<'p> {
             end_state: self.plan.initial_state.repeat(cells),
             work: Work::default(),
             room: Room::default(),
-            frozen: None,
             steady: None,
         }
     }

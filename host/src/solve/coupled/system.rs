@@ -62,8 +62,6 @@ pub(super) struct System<'s> {
     pub(super) end_state: Vec<f64>,
     pub(super) work: Work,
     pub(super) room: Room,
-    /// Cells in contact whatever their pressure, all others being open; `None`: the contact solve finds them.
-    pub(super) frozen: Option<Vec<bool>>,
     /// Under `post`: what the pressure was last solved for.
     pub(super) steady: Option<Control>,
 }
@@ -116,7 +114,7 @@ impl System<'_> {
             control,
             tolerance,
             scale: self.gap_scale,
-            frozen: self.frozen.as_deref(),
+            frozen: None,
         };
         let begin = Instant::now();
         let answer = self.model.solve(&problem, &mut self.pressure);
@@ -316,9 +314,8 @@ impl Answering for System<'_> {
             return self.averaged(driven, weight, base, rate);
         }
         match self.solved.scheme.slope {
-            // On a frozen set a pressure may be negative, and no law is proportional beyond zero.
-            Slope::Proportional if self.frozen.is_none() => self.proportional(driven, weight, base, rate),
-            _ => self.newton(driven, weight, base, rate),
+            Slope::Proportional => self.proportional(driven, weight, base, rate),
+            Slope::Derivative | Slope::Difference => self.newton(driven, weight, base, rate),
         }
     }
 }

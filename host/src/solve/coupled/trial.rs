@@ -1,4 +1,4 @@
-//! Steps of one length from a given state, by any formula, on the contact as it is or on a frozen set.
+//! Steps of one length from a given state, by any formula, on the contact as it comes or on one that cannot grow.
 
 use super::limit::Measured;
 use super::present::Present;
@@ -30,8 +30,8 @@ pub(super) struct How<'a> {
     pub(super) formula: Formula,
     /// Whether the rule against over-wearing holds.
     pub(super) guards: bool,
-    /// Cells that stay in contact, all others staying open; `None`: contact as it comes.
-    pub(super) frozen: Option<&'a [bool]>,
+    /// Cells outside which nothing touches, whatever comes; `None`: contact as it comes.
+    pub(super) held: Option<&'a [bool]>,
     pub(super) control: Control,
 }
 
@@ -136,7 +136,10 @@ impl<'p> Coupled<'p> {
         let run = self.with(self.plan, &solved);
         let mut system = run.system(1);
         system.slides = run.slides(&step)?;
-        system.frozen = how.frozen.map(<[bool]>::to_vec);
+        if let Some(held) = how.held {
+            let outside = system.initial_gap.iter_mut().zip(held).filter(|(_, on)| !**on);
+            outside.for_each(|(gap, _)| *gap = f64::INFINITY);
+        }
         system.pressure.clone_from(&present.pressure);
         system.solution = present.solution;
         system.state.clone_from(&present.state);
@@ -155,7 +158,7 @@ impl<'p> Coupled<'p> {
             cycle: present.cycle,
         };
         let free = matches!(self.solved.elastic, Elastic::HalfSpace { periodic: false, .. });
-        let rim_counts = how.frozen.is_none() && free && rim_in_contact(&system) == 0.0;
+        let rim_counts = how.held.is_none() && free && rim_in_contact(&system) == 0.0;
         let approach = present.solution.approach;
         let mut course = Course { system, stepper, segment, at: 0.0, number: 0, replaced: 0, rim_counts, approach };
         let begun = course.system.press(how.control, &start.wear).map_err(AdvanceError::from);
@@ -245,13 +248,10 @@ impl<'p> Coupled<'p> {
         let mut displaced = vec![0.0; pressure.len()];
         system.model.displacement(pressure, &mut displaced);
         let gap = |cell: usize| self.gap[cell] + wear[cell] + displaced[cell] - system.solution.approach;
-        let overlap = (0..wear.len()).map(|cell| -gap(cell)).fold(0.0, f64::max) / system.gap_scale;
-        // Where lifting pressures can lower the surface elsewhere, a frozen set gives no bound.
-        let lifts = self.solved.is_periodic() || self.solved.cells.dimension == 2;
-        let springs = matches!(self.solved.elastic, Elastic::Foundation(_));
-        let bounded = springs || !lifts || how.frozen.is_none();
-        let lifted = |cell: usize| if how.frozen.is_none() { displaced[cell].min(0.0) } else { 0.0 };
-        let reach = |cell: usize| course.approach - self.gap[cell] - start.wear[cell] - lifted(cell);
+        let can = |cell: &usize| how.held.is_none_or(|held| held[*cell]);
+        let overlap = (0..wear.len()).filter(can).map(|cell| -gap(cell)).fold(0.0, f64::max) / system.gap_scale;
+        // Pressure can lift the surface elsewhere, before a periodic boundary and in 2-D.
+        let reach = |cell: usize| course.approach - self.gap[cell] - start.wear[cell] - displaced[cell].min(0.0);
         let deepest = (0..wear.len()).filter(|cell| start.set[*cell]).map(reach).fold(0.0, f64::max);
         let parts = (0..wear.len())
             .filter(|cell| start.set[*cell] && reach(*cell) > SHALLOW * deepest)
@@ -264,8 +264,8 @@ impl<'p> Coupled<'p> {
             ripple,
             center_pressure: (pressure[start.center] + floor) / (refined.pressure[start.center] + floor),
             lowest_pressure: lowest / start.largest,
-            overlap: if how.frozen.is_none() { overlap } else { 0.0 },
-            wear_over_reach: bounded.then_some(part),
+            overlap,
+            wear_over_reach: part,
             error: if worn > 0.0 { distance(wear, &refined.wear) / worn } else { 0.0 },
             replaced: course.replaced,
         }
