@@ -6,7 +6,7 @@ mod sources;
 use std::path::Path;
 
 /// Each top-level module and the others of the crate that it may name.
-const MAY_USE: [(&str, &[&str]); 14] = [
+const MAY_USE: [(&str, &[&str]); 15] = [
     ("scene", &[]),
     ("reference", &[]),
     ("contact", &[]),
@@ -14,8 +14,9 @@ const MAY_USE: [(&str, &[&str]); 14] = [
     ("law", &[]),
     ("apdl", &["scene"]),
     ("integrator", &["law", "contact"]),
+    ("stability", &["law", "contact"]),
     ("plan", &["scene", "apdl", "law", "contact", "integrator", "reference"]),
-    ("solve", &["plan", "record", "scene", "apdl", "law", "contact", "integrator", "reference"]),
+    ("solve", &["plan", "record", "scene", "apdl", "law", "contact", "integrator", "stability", "reference"]),
     ("output", &["record"]),
     // Its tests read the scene that it writes.
     ("templates", &["scene", "law"]),
@@ -32,6 +33,7 @@ const ALL_BUT_CLI: &[&str] = &[
     "law",
     "apdl",
     "integrator",
+    "stability",
     "plan",
     "solve",
     "output",

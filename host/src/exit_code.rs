@@ -151,9 +151,12 @@ fn of_evaluating(error: &EvaluateError) -> ExitCode {
 fn of_solving(error: &SolveError) -> ExitCode {
     match error {
         SolveError::History(error) => of_history(error),
-        SolveError::Checkpoint(_) | SolveError::NoDuration { .. } | SolveError::HistoryTooShort { .. } => {
-            ExitCode::InputWrong
-        }
+        SolveError::Checkpoint(_)
+        | SolveError::NoDuration { .. }
+        | SolveError::HistoryTooShort { .. }
+        | SolveError::NoSuchTime { .. }
+        | SolveError::NothingTouches { .. } => ExitCode::InputWrong,
+        SolveError::Interrupted => ExitCode::Interrupted,
         SolveError::Advance { source, .. } => match &**source {
             AdvanceError::Evaluate(PointError::Law(error)) => of_evaluating(error),
             AdvanceError::Evaluate(PointError::Batch(_)) => ExitCode::ProgramFault,

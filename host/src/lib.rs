@@ -18,6 +18,7 @@ pub mod record;
 pub mod reference;
 pub mod scene;
 pub mod solve;
+pub mod stability;
 pub mod templates;
 
 pub use error::Error;

@@ -50,6 +50,10 @@ pub(super) enum Command {
     Run(RunArguments),
     /// Show what a scene will compute and what it leaves out; run nothing
     Plan(PlanArguments),
+    /// Measure how stiff the contact is against wear, and what each integrator does beyond the explicit limit
+    ///
+    /// Ends with 4 if the scene's own method is not fine.
+    Stability(StabilityArguments),
     /// Compile sources or a Rust crate into a wear-law library
     Build(BuildArguments),
     /// Make a folder with a working wear law of your own to start from
@@ -109,6 +113,17 @@ pub(super) struct PlanArguments {
     pub(super) scene: PathBuf,
     #[command(flatten)]
     pub(super) shared: SceneArguments,
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct StabilityArguments {
+    /// The scene file (TOML)
+    pub(super) scene: PathBuf,
+    #[command(flatten)]
+    pub(super) shared: SceneArguments,
+    /// Look at the contact at this time; the scene is run up to it [default: 0]
+    #[arg(long, value_name = "TIME")]
+    pub(super) at: Option<f64>,
 }
 
 #[derive(Debug, Clone, Args)]

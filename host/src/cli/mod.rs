@@ -18,6 +18,7 @@ mod plan;
 mod progress;
 mod restart;
 mod run;
+mod stability;
 mod standard_output;
 mod summary;
 mod table;
@@ -60,6 +61,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
     match command {
         Command::Run(arguments) => run::command(console, arguments),
+        Command::Stability(arguments) => stability::command(console, arguments),
         Command::Plan(arguments) => plan::command(console, arguments),
         Command::Build(arguments) => build::command(console, &arguments),
         Command::New(arguments) => new::command(console, &arguments),

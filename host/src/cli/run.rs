@@ -126,6 +126,7 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
             let error = without_reference.map_or(Error::Interrupted, Error::from);
             (error.exit_code(), Some(error))
         }
+        End::Done | End::Stopped(_) if record.stability.is_unstable => (ExitCode::NumbersFailed, None),
         End::Done | End::Stopped(_) if missed.is_some() => (ExitCode::FallsShort, None),
         End::Done | End::Stopped(_) => (ExitCode::Done, None),
     };
@@ -136,6 +137,9 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     } else if !console.quiet {
         let summary = summary(title, &plan, &report, error.as_ref(), record.estimated_error, &settings.out);
         console.result(&summary.text(console))?;
+    }
+    if record.stability.is_unstable {
+        console.note(&record.stability.verdict);
     }
     if let Some((error, bar)) = missed {
         console.note(&format!("the error {:e} is above the bar of the scene, {bar:e} (`reference.bar`)", error.value));
@@ -206,10 +210,10 @@ fn report(
         error,
         cost: record.cost,
         stability: StabilityReport {
-            stiffness_per_s: None,
-            explicit_limit_s: None,
+            stiffness_per_s: record.stability.stiffness,
+            explicit_limit_s: record.stability.explicit_limit,
             largest_step_s: record.largest_step,
-            verdict: "a prescribed pressure has no stability limit".to_owned(),
+            verdict: record.stability.verdict.clone(),
         },
         warnings: law.warnings.iter().chain(&record.warnings).cloned().collect(),
         ended: match &record.end {

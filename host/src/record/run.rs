@@ -53,6 +53,19 @@ pub struct MemoryLine {
     pub bytes: u64,
 }
 
+/// How a run stands to the stability limit of explicit steps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stability {
+    /// Largest measured rate at which unevenness decays; per time. `None`: not measured.
+    pub stiffness: Option<f64>,
+    /// Smallest of the largest stable explicit steps; time. `None`: not measured, or no limit.
+    pub explicit_limit: Option<f64>,
+    /// Whether explicit steps beyond the limit were taken.
+    pub is_unstable: bool,
+    /// In words.
+    pub verdict: String,
+}
+
 /// What happened in a run; numbers in the scene's units.
 #[derive(Debug)]
 pub struct Record<E> {
@@ -74,6 +87,8 @@ pub struct Record<E> {
     pub memory: Vec<MemoryLine>,
     /// Things to know, each once.
     pub warnings: Vec<String>,
+    /// How it stands to the stability limit of explicit steps.
+    pub stability: Stability,
     /// Profile along the points, where they lie on a line.
     pub profile: Option<Profile<'static>>,
     /// Where the points lie.

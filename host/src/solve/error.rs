@@ -60,6 +60,23 @@ pub enum SolveError {
         /// The limit there.
         limit: f64,
     },
+    /// A time that the loading does not reach.
+    #[error("time {at} is outside the loading, expected `--at` from 0 to {end}")]
+    NoSuchTime {
+        /// The time asked for.
+        at: f64,
+        /// Where the loading ends.
+        end: f64,
+    },
+    /// A study of the contact at a time without any.
+    #[error("at time {time} nothing is in contact, expected a time under load (`--at`)")]
+    NothingTouches {
+        /// The time.
+        time: f64,
+    },
+    /// A study was interrupted.
+    #[error("interrupted")]
+    Interrupted,
     /// The contact covers a free grid to its rim.
     #[error(
         "load step {load_step}, time {time}: the contact covers all of the grid's rim, so the load is larger than the \

@@ -13,6 +13,7 @@ mod error;
 mod fields;
 mod inputs;
 mod kinematics;
+mod ladder;
 mod prescribed;
 mod progress;
 mod reference;
@@ -24,5 +25,6 @@ mod sums;
 mod sweeps;
 
 pub use error::{PointError, ShortStep, SolveError};
+pub use ladder::{Ladder, Moment, Outcome, OwnMethod, Pressed, Row, Stiff};
 pub use reference::{ErrorNorm, ReferenceError, compare};
 pub use run::Run;

@@ -12,7 +12,7 @@ use crate::integrator::substeps::Control;
 use crate::integrator::{Tally, norm};
 use crate::law::{Evaluator, OutputItem};
 use crate::plan::{Advance, FieldKind, Plan, ReferencePlan};
-use crate::record::{self, Checkpoint, Cost, End, Event, Line, MemoryLine, Nobody, Observer, Record, Wish};
+use crate::record::{self, Checkpoint, Cost, End, Event, Line, MemoryLine, Nobody, Observer, Record, Stability, Wish};
 use crate::scene::ScalingKind;
 use crate::solve::chunk::SCANNED_POINTS;
 use crate::solve::inputs::Drive;
@@ -225,6 +225,10 @@ impl<'p> Prescribed<'p> {
             state: going.arrays.state,
             memory: self.memory(),
             warnings: going.warnings,
+            stability: Stability {
+                verdict: "a prescribed pressure has no stability limit".to_owned(),
+                ..Stability::default()
+            },
             profile,
             geometry,
             units,

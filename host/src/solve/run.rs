@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coupled::Coupled;
 use super::prescribed::Prescribed;
-use super::{ErrorNorm, SolveError};
+use super::{ErrorNorm, Ladder, SolveError};
 use crate::law::Evaluator;
 use crate::plan::Plan;
 use crate::record::{Checkpoint, Geometry, MemoryLine, Observer, Record};
@@ -125,6 +125,20 @@ impl<'p> Run<'p> {
         match &self.kind {
             Kind::Prescribed(run) => run.contents(),
             Kind::Coupled(run) => Ok(run.contents()),
+        }
+    }
+
+    /// What every integrator does in steps of many lengths, from the state at a represented time on. `None`: the pressure is
+    /// prescribed and nothing has a stability limit.
+    ///
+    /// `goes_on` is asked between trials.
+    ///
+    /// # Errors
+    /// A time outside the loading, or at which nothing touches; whatever ends the run before that time; an interruption.
+    pub fn ladder(&self, at: f64, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<Option<Ladder>, SolveError> {
+        match &self.kind {
+            Kind::Prescribed(_) => Ok(None),
+            Kind::Coupled(run) => run.ladder(at, goes_on)?.map(Some).ok_or(SolveError::Interrupted),
         }
     }
 

@@ -20,7 +20,7 @@ use crate::solve::{PointError, SolveError};
 /// Steps of the first pass over the first stretch.
 const FIRST_STEPS: u64 = 4;
 /// Most steps of a pass.
-const MOST_STEPS: u64 = 1 << 22;
+pub(super) const MOST_STEPS: u64 = 1 << 22;
 /// Order at which the difference of two passes is assumed to fall: below the formulas' own, because of moving edges.
 const ORDER: f64 = 0.75;
 /// Part of the steps of a pass that is spread evenly.
@@ -84,12 +84,13 @@ impl<'p> Coupled<'p> {
         let begin = going.stepper.moment(system);
         let clock = going.clock;
         let mut coarse: Option<Pass> = None;
-        let mut steps = going.control.steps;
+        let mut steps = self.fewest_steps(system, going, &segment, (start, until, number))?.max(going.control.steps);
         let mut failures = 0;
         loop {
             going.stepper.return_to(system, &begin);
-            let tried =
-                self.pass(system, going, segment, (start, until, number), (steps, coarse.as_ref(), cycles_per_time));
+            // Uneven steps could be beyond the limit that their number keeps.
+            let guide = coarse.as_ref().filter(|_| !self.has_limit());
+            let tried = self.pass(system, going, segment, (start, until, number), (steps, guide, cycles_per_time));
             if tried.is_err() {
                 // Nothing of a trial stays.
                 going.stepper.return_to(system, &begin);

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::controlled::Control;
+use super::limit::Watch;
 use super::place::Place;
 use super::rows::{self, Clock};
 use super::segment::Segment;
@@ -10,10 +11,11 @@ use super::stepper::{Accepted, Stepper};
 use super::system::System;
 use crate::contact::Control as Pressing;
 use crate::law::Evaluator;
+use crate::plan::{Block, Plan};
 use crate::record::{self, Cost, Event, HistoryRow, Observer, Wish};
 use crate::scene::Every;
-use crate::solve::SolveError;
 use crate::solve::ending::{peak_memory, stop_reached};
+use crate::solve::{SolveError, fields};
 
 /// What changes from step to step.
 pub(super) struct Going<'o> {
@@ -41,6 +43,8 @@ pub(super) struct Going<'o> {
     pub(super) begin: Instant,
     /// Why the run ends where it can be gone on from next.
     pub(super) leaving: Option<Leave>,
+    /// The stability limit of explicit steps.
+    pub(super) watch: Watch,
 }
 
 /// Why the loop ends early.
@@ -56,7 +60,35 @@ impl From<SolveError> for Leave {
     }
 }
 
-impl Going<'_> {
+impl<'o> Going<'o> {
+    /// Before the first step of a plan over this many cells.
+    pub(super) fn new(plan: &Plan, cells: usize, observer: &'o mut (dyn Observer + Send)) -> Going<'o> {
+        let count = |block: &Block| block.count as f64 * block.steps.iter().filter_map(|s| s.duration).sum::<f64>();
+        Going {
+            stepper: Stepper::new(cells, plan.smallest_step),
+            clock: Clock::default(),
+            history: record::History::default(),
+            steps: 0,
+            rejected: 0,
+            replaced: 0,
+            control: Control::new(),
+            longest: 0.0,
+            warnings: Vec::new(),
+            observer,
+            units: fields::units(plan),
+            total: plan.blocks.iter().map(count).sum(),
+            start_pressure: Vec::new(),
+            snapshot_told: false,
+            pressed: None,
+            place: Place::START,
+            asides: Vec::new(),
+            spent: Cost::default(),
+            begin: Instant::now(),
+            leaving: None,
+            watch: Watch::default(),
+        }
+    }
+
     pub(super) fn warn(&mut self, warning: String) {
         if !self.warnings.contains(&warning) {
             self.observer.observe(Event::Warning(&warning));

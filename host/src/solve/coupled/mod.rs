@@ -7,11 +7,14 @@
 mod averaged;
 mod controlled;
 mod going;
+mod ladder;
 mod law_points;
+mod limit;
 mod loading;
 mod newton;
 mod place;
 mod prepared;
+mod present;
 mod proportional;
 mod reference;
 mod rows;
@@ -19,5 +22,6 @@ mod run;
 mod segment;
 mod stepper;
 mod system;
+mod trial;
 
 pub(super) use run::Coupled;

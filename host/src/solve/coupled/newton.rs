@@ -108,6 +108,11 @@ impl System<'_> {
     /// Increments and slopes of the law at the points of linearisation, for the cells under pressure there.
     fn linearise(&mut self, driven: Driven, point: &[f64], open: bool) -> Result<Reply, PointError> {
         Self::list(&mut self.room.cells, point, open);
+        self.linearise_listed(driven, point)
+    }
+
+    /// Increments and slopes of the law at the cells in `room.cells` under pressures `[cells]`.
+    pub(super) fn linearise_listed(&mut self, driven: Driven, point: &[f64]) -> Result<Reply, PointError> {
         if self.solved.scheme.slope == Slope::Derivative {
             if let cut @ Reply::Cut(_) = self.evaluate(driven, point, true)? {
                 return Ok(cut);
@@ -168,7 +173,7 @@ impl System<'_> {
         if largest == 0.0 {
             return 0.0;
         }
-        let (mut sum, mut weight) = (0.0, 0.0);
+        let (mut sum, mut weight, mut shares) = (0.0, 0.0, 0.0);
         let mut listed = self.room.cells.iter().enumerate().peekable();
         for cell in 0..point.len() {
             let found = listed.next_if(|(_, at)| **at as usize == cell);
@@ -183,7 +188,11 @@ impl System<'_> {
             let share = pressure.max(if pressure > 0.0 { 0.0 } else { point[cell] }) / largest;
             sum += share * (law - line).abs();
             weight += pressure / largest;
+            shares += share;
         }
+        // Where the lines left no pressure at all, the points of linearisation are what is judged: the line of a concave
+        // law lies far above it on the way down to zero.
+        let weight = if weight > 0.0 { weight } else { shares };
         if weight > 0.0 { sum / weight / self.gap_scale } else { 0.0 }
     }
 }

@@ -83,7 +83,7 @@ pub(super) fn snapshot<'a>(
 }
 
 /// Part of the rim of a free grid that carries pressure.
-fn rim_in_contact(system: &System<'_>) -> f64 {
+pub(super) fn rim_in_contact(system: &System<'_>) -> f64 {
     let cells = system.cells();
     let [nx, ny] = cells.counts;
     let flat = cells.dimension == 2;

@@ -3,20 +3,18 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use super::controlled::Control;
 use super::going::{Going, Leave};
-use super::place::Place;
-use super::rows::{self, Clock};
+use super::rows;
 use super::segment::Segment;
 use super::stepper::{Reach, Stepper};
 use super::system::{Substep, System};
 use crate::contact::surface::height_map;
 use crate::integrator::{Formula, norm};
 use crate::law::Evaluator;
-use crate::plan::{Block, Plan, SolvedPlan};
-use crate::record::{self, Checkpoint, Cost, End, Line, Observer, Record};
+use crate::plan::{Plan, SolvedPlan};
+use crate::record::{Checkpoint, End, Line, Observer, Record};
 use crate::scene::ScalingKind;
-use crate::solve::{SolveError, contents, fields};
+use crate::solve::{SolveError, contents};
 
 /// Cells below which more threads than one cost more than they give.
 const SHARED: usize = 512 * 512;
@@ -44,6 +42,14 @@ impl<'p> Coupled<'p> {
         let read = |path: &std::path::PathBuf| height_map::read(path, &solved.cells);
         let velocities = solved.velocity_files.iter().map(read).collect::<Result<_, _>>()?;
         Ok(Coupled { plan, solved, evaluator, gap, velocities })
+    }
+
+    /// The same surface and velocities under another plan.
+    pub(super) fn with<'q>(&self, plan: &'q Plan, solved: &'q SolvedPlan) -> Coupled<'q>
+    where
+        'p: 'q,
+    {
+        Coupled { plan, solved, evaluator: self.evaluator, gap: self.gap.clone(), velocities: self.velocities.clone() }
     }
 
     pub(in crate::solve) fn points(&self) -> usize {
@@ -77,29 +83,8 @@ impl<'p> Coupled<'p> {
         let threads = if self.gap.len() < SHARED { 1 } else { threads };
         let geometry = self.geometry();
         let line = Line::of(&geometry);
-        let count = |block: &Block| block.count as f64 * block.steps.iter().filter_map(|s| s.duration).sum::<f64>();
-        let mut going = Going {
-            stepper: Stepper::new(self.gap.len(), self.plan.smallest_step),
-            clock: Clock::default(),
-            history: record::History::default(),
-            steps: 0,
-            rejected: 0,
-            replaced: 0,
-            control: Control::new(),
-            longest: 0.0,
-            warnings: Vec::new(),
-            observer,
-            units: fields::units(self.plan),
-            total: self.plan.blocks.iter().map(count).sum(),
-            start_pressure: Vec::new(),
-            snapshot_told: false,
-            pressed: None,
-            place: Place::START,
-            asides: Vec::new(),
-            spent: Cost::default(),
-            begin,
-            leaving: None,
-        };
+        let mut going = Going::new(self.plan, self.gap.len(), observer);
+        going.begin = begin;
         let (mut system, mut refused) = (None, None);
         let end = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
             Ok(pool) => pool.install(|| {
@@ -137,6 +122,7 @@ impl<'p> Coupled<'p> {
         let mut system = system.unwrap_or_else(|| self.system(1));
         let size = norm(going.stepper.wear.iter().copied());
         let cost = going.cost(&system);
+        let stability = going.watch.told(self, going.steps);
         let Going { stepper, history, warnings, units, start_pressure, .. } = going;
         let none = vec![0.0; self.gap.len()];
         let profile = line.map(|line| {
@@ -153,6 +139,7 @@ impl<'p> Coupled<'p> {
             state: std::mem::take(&mut system.state),
             memory: self.memory(),
             warnings,
+            stability,
             profile,
             geometry,
             units,
@@ -190,8 +177,9 @@ impl<'p> Coupled<'p> {
             }
             while going.place.at < until {
                 let (at, number) = (going.place.at, going.place.number + 1);
-                let length =
-                    self.step(system, going, (segment, Reach { start: at, until, number }), cycles_per_time)?;
+                let end = self.within_limit(system, going, &segment, (at, until, number))?;
+                let reach = Reach { start: at, until: end, number };
+                let length = self.step(system, going, (segment, reach), cycles_per_time)?;
                 going.place.at = if length >= until - at { until } else { at + length };
                 going.place.number = number;
                 if scaling == ScalingKind::Cycle {
@@ -222,11 +210,15 @@ impl<'p> Coupled<'p> {
                 let left = (until - represented) / unscaled;
                 let stretch = going.place.stretch;
                 let scale = if stretch >= left * (1.0 - 1e-12) { left } else { stretch };
-                let piece = Segment { start: at, length: unscaled, represented, scale, ..segment };
-                let reach = Reach { start: at, until: at + unscaled, number: going.place.number + 1 };
+                let mut piece = Segment { start: at, length: unscaled, represented, scale, ..segment };
+                let number = going.place.number + 1;
+                let end = self.within_limit(system, going, &piece, (at, at + unscaled, number))?;
+                let scale = scale * ((end - at) / unscaled).min(1.0);
+                piece.scale = scale;
+                let reach = Reach { start: at, until: at + unscaled, number };
                 let length = self.step(system, going, (piece, reach), cycles_per_time)?;
                 going.place.at = if length >= unscaled { at + unscaled } else { at + length };
-                going.place.number += 1;
+                going.place.number = number;
                 if length >= unscaled {
                     going.clock.represented = if scale == left { until } else { represented + scale * unscaled };
                 }
@@ -265,7 +257,12 @@ impl<'p> Coupled<'p> {
     }
 
     /// Brings the contact to what presses at the start of a load step, if that differs from the end of the one before.
-    fn press_start(&self, system: &mut System<'p>, going: &mut Going<'_>, segment: &Segment<'p>) -> Result<(), Leave> {
+    pub(super) fn press_start(
+        &self,
+        system: &mut System<'p>,
+        going: &mut Going<'_>,
+        segment: &Segment<'p>,
+    ) -> Result<(), Leave> {
         system.substep = Substep { segment: *segment, start: segment.start, dt: segment.length, number: 1 };
         let driven = segment.at(segment.start);
         let first = going.history.rows.is_empty();

@@ -148,3 +148,18 @@ fn what_is_not_finite_is_refused() {
     refused(&mut model, [0.0; 4], load, Diagonal::Uniform(f64::NAN));
     refused(&mut model, [0.0; 4], load, Diagonal::PerPoint(&[0.0, -1.0, 0.0, 0.0]));
 }
+
+#[test]
+fn an_approach_short_of_the_surface_leaves_everything_open() {
+    for cells in [line(9, 1e-6), plane([5, 4], [1e-6, 1e-6])] {
+        let gap: Vec<f64> = bowl(&cells, 1e-2).iter().map(|gap| gap + 1e-6).collect();
+        let mut model = HalfSpace::new(cells, MODULUS, Boundary::Free, None, 1);
+        for (approach, start) in [(1e-6, 0.0), (1e-6, 1e9), (-2.0, 1e9), (0.0, 0.0)] {
+            let mut pressure = vec![start; gap.len()];
+            let asked = Problem { diagonal: Diagonal::Uniform(1e-12), ..problem(&gap, Control::Approach(approach)) };
+            let solution = model.solve(&asked, &mut pressure).unwrap();
+            assert!(pressure.iter().all(|p| *p == 0.0), "{approach} {start}: {pressure:?}");
+            assert_eq!((solution.load, solution.approach), (0.0, approach));
+        }
+    }
+}
