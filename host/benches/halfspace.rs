@@ -134,11 +134,11 @@ fn rough(n: usize) -> (f64, Vec<f64>, f64) {
     let wave = |k: usize| if k > n / 2 { k as f64 - n as f64 } else { k as f64 };
     let mut field = vec![Complex::new(0.0, 0.0); n * n];
     let mut slopes = 0.0;
-    for cell in 0..n * n {
+    for (cell, value) in field.iter_mut().enumerate() {
         let q = wave(cell % n).hypot(wave(cell / n));
         if (1.0..=n as f64 / 8.0).contains(&q) {
             let amplitude = q.max(4.0).powf(-1.8);
-            field[cell] = Complex::from_polar(amplitude, 2.0 * PI * random());
+            *value = Complex::from_polar(amplitude, 2.0 * PI * random());
             slopes += 0.5 * (amplitude * 2.0 * PI * q / size).powi(2);
         }
     }

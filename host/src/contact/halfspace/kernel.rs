@@ -22,6 +22,8 @@ pub struct Kernel {
     pub datum: f64,
     /// The compliance at all lags, once it was needed; periodic only.
     lags: Option<Quarter>,
+    /// The least of all, once it was needed.
+    least: Option<f64>,
 }
 
 /// Cells of a window and of the grid that its transforms are made on; equal along an axis: the whole of a period.
@@ -30,7 +32,7 @@ pub type Sizes = ([usize; 2], [usize; 2]);
 impl Kernel {
     /// Of cells in these units.
     pub fn new(flat: bool, boundary: Boundary, counts: [usize; 2], spacing: [f64; 2], soft: f64, datum: f64) -> Kernel {
-        Kernel { flat, boundary, counts, spacing, soft, datum, lags: None }
+        Kernel { flat, boundary, counts, spacing, soft, datum, lags: None, least: None }
     }
 
     /// Displacement per pressure of a mode of a periodic surface with this many cells.
@@ -51,10 +53,14 @@ impl Kernel {
 
     /// Least displacement per pressure of any cell on any other.
     pub fn least(&mut self) -> f64 {
-        match self.boundary {
+        if let Some(least) = self.least {
+            return least;
+        }
+        let least = match self.boundary {
             Boundary::Free => self.free(self.counts.map(|count| count - 1)),
             Boundary::Periodic => self.lags().values.iter().copied().fold(f64::INFINITY, f64::min),
-        }
+        };
+        *self.least.insert(least)
     }
 
     /// The compliance at all lags of a period.

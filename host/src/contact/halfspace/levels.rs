@@ -4,7 +4,7 @@ use super::Boundary;
 use super::kernel::Kernel;
 use super::patch::Patch;
 use super::search::{Accuracy, search};
-use super::window::{Window, range};
+use super::window::{Extent, Window};
 
 /// Cells up to which a grid is not made coarser.
 const ENOUGH_3D: usize = 40 * 40;
@@ -55,8 +55,13 @@ impl Guess {
 
     /// The pressures on a window of the finer level: those of the cells that its cells are parts of.
     pub fn on(&self, window: &Window) -> Vec<f64> {
-        let at = |cell: usize| [cell % window.all[0] / self.factor[0], cell / window.all[0] / self.factor[1]];
-        window.cells().map(|cell| self.window.place(at(cell)).map_or(0.0, |place| self.pressure[place])).collect()
+        let mut values = Vec::with_capacity(window.sizes.0[0] * window.sizes.0[1]);
+        for place in 0..window.sizes.0[0] * window.sizes.0[1] {
+            let [x, y] = window.at(place);
+            let coarse = self.window.place([x / self.factor[0], y / self.factor[1]]);
+            values.push(coarse.map_or(0.0, |place| self.pressure[place]));
+        }
+        values
     }
 }
 
@@ -83,27 +88,33 @@ pub fn coarser(kernel: &Kernel, sum: Option<f64>, gap: impl Fn(usize) -> f64, lo
     let counts = [nx.div_ceil(factor[0]), ny.div_ceil(factor[1])];
     let mut spacing = kernel.spacing;
     spacing.iter_mut().zip(factor).for_each(|(spacing, factor)| *spacing *= factor as f64);
-    let mean = |cell: usize, of: &dyn Fn(usize) -> f64| {
-        let (x, y) = (cell % counts[0] * factor[0], cell / counts[0] * factor[1]);
-        let (mut sum, mut count) = (0.0, 0.0);
-        for row in y..ny.min(y + factor[1]) {
-            for value in (x..nx.min(x + factor[0])).map(|x| of(row * nx + x)).filter(|value| value.is_finite()) {
-                sum += value;
-                count += 1.0;
-            }
-        }
-        if count > 0.0 { sum / count } else { f64::INFINITY }
-    };
-    let cells = counts[0] * counts[1];
-    let coarse_local =
-        if local.len() > 1 { (0..cells).map(|cell| mean(cell, &|fine| local[fine])).collect() } else { local.to_vec() };
+    let local = if local.len() > 1 { averaged([nx, ny], factor, |cell| local[cell]) } else { local.to_vec() };
     Level {
         kernel: Kernel::new(kernel.flat, kernel.boundary, counts, spacing, kernel.soft, kernel.datum),
-        gap: (0..cells).map(|cell| mean(cell, &gap)).collect(),
-        local: coarse_local,
+        gap: averaged([nx, ny], factor, gap),
+        local,
         sum: sum.map(|sum| sum / (factor[0] * factor[1]) as f64),
         factor,
     }
+}
+
+/// Means of the finite values over blocks of cells; infinity where there are none.
+fn averaged(counts: [usize; 2], factor: [usize; 2], of: impl Fn(usize) -> f64) -> Vec<f64> {
+    let [nx, ny] = counts;
+    let mut means = Vec::with_capacity(nx.div_ceil(factor[0]) * ny.div_ceil(factor[1]));
+    for y in (0..ny).step_by(factor[1]) {
+        for x in (0..nx).step_by(factor[0]) {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for row in y..ny.min(y + factor[1]) {
+                for value in (x..nx.min(x + factor[0])).map(|x| of(row * nx + x)).filter(|value| value.is_finite()) {
+                    sum += value;
+                    count += 1.0;
+                }
+            }
+            means.push(if count > 0.0 { sum / count } else { f64::INFINITY });
+        }
+    }
+    means
 }
 
 /// Guesses the pressures of a level, from coarser ones.
@@ -123,12 +134,8 @@ pub fn guess(mut level: Level, threads: usize) -> Guess {
         kernel: &level.kernel,
         convolution: &mut convolution,
         counts: window.sizes.0,
-        gap: window.cells().map(|cell| level.gap[cell]).collect(),
-        local: if level.local.len() > 1 {
-            window.cells().map(|cell| level.local[cell]).collect()
-        } else {
-            level.local.clone()
-        },
+        gap: window.gather(|cell| level.gap[cell]),
+        local: if level.local.len() > 1 { window.gather(|cell| level.local[cell]) } else { level.local.clone() },
         smoothed: false,
         sum: level.sum,
         threads,
@@ -137,8 +144,8 @@ pub fn guess(mut level: Level, threads: usize) -> Guess {
     let outcome = search(&mut patch, Accuracy { tolerance: 0.0, scale: 0.0, rough: ROUGH }, &mut pressure);
     iterations += outcome.iterations;
     pairs += patch.pairs;
-    let [nx, _] = level.kernel.counts;
-    let loaded = |cell: usize| window.place([cell % nx, cell / nx]).is_some_and(|place| pressure[place] > 0.0);
-    let contact = range(&level.kernel, loaded);
+    let mut extent = Extent::empty(level.kernel.counts);
+    extent.mark_loaded(&window, &pressure);
+    let contact = extent.range(level.kernel.boundary);
     Guess { window, pressure, contact, factor: level.factor, iterations, pairs }
 }

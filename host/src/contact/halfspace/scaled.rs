@@ -107,10 +107,15 @@ impl<'a> Scaled<'a> {
         (self.problem.gap[cell] - self.datum) / self.units.gap
     }
 
-    /// Local compliances of cells, or one for all, or none.
-    pub fn local(&self, cells: impl Iterator<Item = usize>) -> Vec<f64> {
+    /// Local compliance of a cell where they differ.
+    pub fn varying(&self) -> Option<impl Fn(usize) -> f64 + '_> {
+        let Diagonal::PerPoint(b) = self.problem.diagonal else { return None };
+        Some(|cell: usize| b[cell] * self.compliance)
+    }
+
+    /// Local compliance where it is the same everywhere; one, or none at all.
+    pub fn uniform(&self) -> Vec<f64> {
         match self.problem.diagonal {
-            Diagonal::PerPoint(b) => cells.map(|cell| b[cell] * self.compliance).collect(),
             Diagonal::Uniform(b) if b > 0.0 => vec![b * self.compliance],
             _ => Vec::new(),
         }

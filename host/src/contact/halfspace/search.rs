@@ -5,21 +5,21 @@
 //! the compliance has the signs of an M-matrix, for which such rounds with exact descents end (Hintermüller, Ito,
 //! Kunisch, SIAM J. Optim. 13, 2002). Where they go round in circles all the same, which a smoothed local compliance can
 //! bring about, the energy is made to fall from then on: a round that would raise it goes back to the best state on its
-//! way, and a few steps straight down the gradient follow (projected, so they always lower it).
+//! way, and careful rounds follow, which always lower it: steps straight down the gradient, projected, and a descent on
+//! the cells with pressure that ends where the first of them has none left (Moré and Toraldo, SIAM J. Optim. 1, 1991).
 
 use super::contact_set::ContactSet;
 use super::descend::{Descent, Goal};
 use super::patch::Patch;
-use super::state::{State, enlarge, go_back, project, rescale, start};
+use super::state::{State, enlarge, go_back, project, rescale, start, stop_at_zero};
 use super::stencil::Stencil;
 
 /// Rounds after which a search is given up, and those without progress.
 const MOST_ROUNDS: u64 = 1000;
 const PATIENCE: u64 = 120;
-/// Rounds without progress after which energies have to fall, and rounds straight down the gradient after one that would
-/// have raised it.
+/// Rounds without progress after which energies have to fall, and careful rounds after one that would have raised it.
 const LENIENCE: u64 = 8;
-const STRAIGHT: u32 = 3;
+const CAREFUL: u32 = 4;
 /// Iterations of one descent.
 const MOST_ITERATIONS: u64 = 400;
 /// What a descent reduces the residual to, on a set that has just changed and on one that stays.
@@ -65,7 +65,7 @@ pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>
     let mut stencil = None;
     let mut best = (f64::INFINITY, 0.0, 0, ContactSet::default(), Vec::new());
     let mut iterations = 0;
-    let (mut guarded, mut straight) = (false, 0);
+    let (mut guarded, mut careful) = (false, 0);
     for round in 0.. {
         patch.evaluate(pressure, &mut u);
         let mut state = State::of(patch, pressure, &u);
@@ -73,11 +73,12 @@ pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>
             enlarge(patch, pressure, &mut u, &state);
             state = State::of(patch, pressure, &u);
         }
-        guarded |= round > best.2 + LENIENCE;
+        // Without symmetry the energy is no more than a way out of the circle.
+        guarded = round > best.2 + LENIENCE || guarded && patch.symmetric();
         if guarded && state.energy > last.energy + 1e-12 * state.energies {
             let step = go_back(patch, &before, &u_before, pressure, &mut u);
-            if straight == 0 && step < 0.5 {
-                straight = STRAIGHT;
+            if careful == 0 && step < 0.5 {
+                careful = CAREFUL;
             }
             state = State::of(patch, pressure, &u);
         }
@@ -106,7 +107,8 @@ pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>
             // What rounding left over is no failure.
             return outcome(best.0, best.1, best.0 <= 64.0 * floor);
         }
-        let joins = approach - 0.25 * bar;
+        // The last careful round is on the cells with pressure alone.
+        let joins = if careful == 1 { f64::NEG_INFINITY } else { approach - 0.25 * bar };
         let now = ContactSet::of(patch.counts, |cell| pressure[cell] > 0.0 || patch.gap[cell] + u[cell] < joins);
         let same = now == set;
         set = now;
@@ -114,16 +116,19 @@ pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>
         stencil.turn_to(patch, &set);
         let residual = set.cells.iter().map(|cell| patch.gap[*cell as usize] + u[*cell as usize] - approach).collect();
         let mut descent = Descent { pressure: set.gather(pressure), residual, iterations: 0 };
-        if straight > 0 {
-            straight -= 1;
+        if careful > 1 {
             descent.straight(patch, &set);
             project(patch, &mut descent.pressure);
         } else {
             let reduction = if same { SAME } else { CHANGED };
             let norm = reduction * descent.norm(patch);
             descent.run(patch, &set, stencil, &Goal { norm, error: 0.5 * bar, wrong: WRONG, most: MOST_ITERATIONS });
+            if careful == 1 {
+                stop_at_zero(&set.gather(pressure), &mut descent.pressure);
+            }
             descent.pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         }
+        careful = careful.saturating_sub(1);
         iterations += descent.iterations;
         before.clone_from(pressure);
         std::mem::swap(&mut u, &mut u_before);

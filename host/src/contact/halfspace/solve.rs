@@ -3,10 +3,11 @@
 use super::contact_set::ContactSet;
 use super::convolve::Dense;
 use super::levels;
+use super::passes::sum;
 use super::patch::Patch;
 use super::scaled::Scaled;
 use super::search::{Accuracy, Outcome, search};
-use super::window::Window;
+use super::window::{Extent, Window};
 use super::{Boundary, HalfSpace, frozen};
 use crate::contact::{ContactError, Control, Problem, Solution};
 
@@ -24,18 +25,18 @@ pub fn solve(model: &mut HalfSpace, problem: &Problem<'_>, pressure: &mut [f64])
         determined(model, &scaled, problem, approach)?;
     }
     let mut job = Job { model, problem, scaled: &scaled, iterations: 0, pairs: 0 };
-    let outcome = match problem.frozen {
+    let (window, values, outcome) = match problem.frozen {
         Some(set) => job.frozen(set, pressure),
         None => job.search(pressure),
     };
     let (iterations, fft_pairs) = (job.iterations, job.pairs);
-    let total = super::passes::sum(model.threads, pressure.len(), |cell| pressure[cell]);
+    let total = sum(model.threads, values.len(), |place| values[place]);
     let (mut factor, mut load) = (scaled.units.pressure, total * scaled.units.pressure * model.cells.area());
     if let (Control::Load(wanted), Some(sum), None) = (problem.control, scaled.sum, problem.frozen) {
         factor *= sum / total;
         load = wanted;
     }
-    super::passes::change(model.threads, pressure, |_, p| p * factor);
+    put(&window, &values, factor, pressure);
     let approach = match problem.control {
         Control::Load(_) => scaled.datum + outcome.approach * scaled.units.gap,
         Control::Approach(approach) => approach,
@@ -54,12 +55,12 @@ fn determined(
     approach: f64,
 ) -> Result<(), ContactError> {
     let all = problem.frozen.is_none_or(|set| set.iter().all(|on| *on));
-    let soft = scaled.local(0..problem.gap.len()).iter().any(|b| *b > 0.0);
+    let soft = (0..problem.gap.len()).any(|cell| problem.diagonal.at(cell) > 0.0);
     if model.kernel.boundary == Boundary::Free || !all || soft {
         return Ok(());
     }
     let count = problem.gap.len();
-    let mean = super::passes::sum(1, count, |cell| scaled.gap(cell)) / count as f64;
+    let mean = sum(1, count, |cell| scaled.gap(cell)) / count as f64;
     if mean == f64::INFINITY {
         // Where nothing can touch, contact is never full.
         return Ok(());
@@ -91,8 +92,8 @@ impl Job<'_> {
             convolution: &mut convolution,
             counts: window.sizes.0,
             wraps: window.wraps(self.model.kernel.boundary),
-            gap: window.cells().map(|cell| self.scaled.gap(cell)).collect(),
-            local: self.scaled.local(window.cells()),
+            gap: window.gather(|cell| self.scaled.gap(cell)),
+            local: self.scaled.varying().map_or_else(|| self.scaled.uniform(), |local| window.gather(local)),
             smoothed: self.problem.smoothed,
             sum: self.scaled.sum,
             threads: self.model.threads,
@@ -104,43 +105,45 @@ impl Job<'_> {
         result
     }
 
-    /// Solves on a set that is given.
-    fn frozen(&mut self, set: &[bool], pressure: &mut [f64]) -> Outcome {
-        let Some(window) = Window::around(&self.model.kernel, [0, 0], |cell| set[cell]) else {
-            pressure.fill(0.0);
-            return Outcome { approach: 0.0, iterations: 0, error: 0.0, bar: 0.0, converged: true };
-        };
+    /// Solves on a set that is given: the window around it, the pressures there in the unit of the problem, and how it
+    /// went.
+    fn frozen(&mut self, set: &[bool], pressure: &[f64]) -> (Window, Vec<f64>, Outcome) {
+        let kernel = &self.model.kernel;
+        let window = Window::around(kernel, [0, 0], &Extent::of(kernel.counts, |cell| set[cell]));
+        let window = window.unwrap_or_else(|| Window::over(kernel, [0, 0], [1, 1], [0, 0]));
         let unit = self.scaled.units.pressure;
-        let mut values: Vec<f64> = window.cells().map(|cell| pressure[cell] / unit).collect();
-        let inside: Vec<usize> = window.cells().collect();
-        let cells = ContactSet::of(window.sizes.0, |place| set[inside[place]]);
+        let mut values = window.gather(|cell| pressure[cell] / unit);
+        let inside = window.gather(|cell| set[cell]);
+        let cells = ContactSet::of(window.sizes.0, |place| inside[place]);
         let tolerance = self.problem.tolerance;
         let outcome = self.on(&window, |patch| frozen::close(patch, &cells, tolerance, &mut values));
         self.iterations += outcome.iterations;
-        put(&window, &values, pressure);
-        outcome
+        (window, values, outcome)
     }
 
-    /// Finds the contact. `pressure` is in the unit of the problem on entry, in its own unit on return.
-    fn search(&mut self, pressure: &mut [f64]) -> Outcome {
+    /// Finds the contact: a window with all of it, the pressures there in the unit of the problem, and how it went.
+    fn search(&mut self, pressure: &[f64]) -> (Window, Vec<f64>, Outcome) {
         let (mut window, mut values) = self.begin(pressure);
         let accuracy = Accuracy { tolerance: self.problem.tolerance, scale: self.scaled.scale, rough: 0.0 };
         for tried in 0.. {
             let mut outcome = self.on(&window, |patch| search(patch, accuracy, &mut values));
             self.iterations += outcome.iterations;
-            put(&window, &values, pressure);
             if window.is_whole() {
-                return outcome;
+                return (window, values, outcome);
             }
-            let Some(overlapping) = self.overlapping(&window, &values, &mut outcome) else { return outcome };
-            let is_low = |cell: usize| overlapping.binary_search(&cell).is_ok();
-            let margin = margin(&self.model.kernel.counts, &window);
-            let larger = Window::around(&self.model.kernel, margin, |cell| pressure[cell] > 0.0 || is_low(cell));
-            window = match larger {
-                Some(larger) if tried < MOST_WINDOWS => larger,
-                _ => Window::whole(&self.model.kernel),
-            };
-            values = window.cells().map(|cell| pressure[cell]).collect();
+            let low = self.overlapping(&window, &values, &mut outcome);
+            if low.is_empty() {
+                return (window, values, outcome);
+            }
+            let kernel = &self.model.kernel;
+            let mut extent = Extent::empty(kernel.counts);
+            extent.mark_loaded(&window, &values);
+            low.into_iter().for_each(|at| extent.mark(at));
+            let margin = [0, 1].map(|axis| if kernel.counts[axis] > 1 { 2 + window.sizes.0[axis] / 8 } else { 0 });
+            let larger = Window::around(kernel, margin, &extent).filter(|_| tried < MOST_WINDOWS);
+            let larger = larger.unwrap_or_else(|| Window::whole(kernel));
+            values = moved(&window, &values, &larger);
+            window = larger;
         }
         unreachable!("the last window is everything")
     }
@@ -149,15 +152,17 @@ impl Job<'_> {
     fn begin(&mut self, pressure: &[f64]) -> (Window, Vec<f64>) {
         let unit = self.scaled.units.pressure;
         let kernel = &self.model.kernel;
-        if let Some(around) = Window::around(kernel, [2, 2], |cell| pressure[cell] > 0.0) {
-            let values = around.cells().map(|cell| pressure[cell] / unit).collect();
+        let loaded = Extent::of(kernel.counts, |cell| pressure[cell] > 0.0);
+        if let Some(around) = Window::around(kernel, [2, 2], &loaded) {
+            let values = around.gather(|cell| pressure[cell] / unit);
             return (around, values);
         }
         let count = self.problem.gap.len();
         if !levels::worthwhile(kernel) {
             return (Window::whole(kernel), vec![0.0; count]);
         }
-        let local = self.scaled.local(0..count);
+        let varying = self.scaled.varying();
+        let local = varying.map_or_else(|| self.scaled.uniform(), |local| (0..count).map(local).collect());
         let level = levels::coarser(kernel, self.scaled.sum, |cell| self.scaled.gap(cell), &local);
         let guess = levels::guess(level, self.model.threads);
         (self.iterations, self.pairs) = (guess.iterations, guess.pairs);
@@ -167,69 +172,65 @@ impl Job<'_> {
         (window, values)
     }
 
-    /// Cells outside of the window that overlap by more than is allowed, in order; `None`: none does, and the outcome's
-    /// error counts them in.
-    fn overlapping(&mut self, window: &Window, values: &[f64], outcome: &mut Outcome) -> Option<Vec<usize>> {
-        let least = self.model.kernel.least() * values.iter().sum::<f64>();
+    /// Columns and rows of the cells outside of the window that overlap by more than is allowed. If none does, the
+    /// outcome's error counts them in.
+    fn overlapping(&mut self, window: &Window, values: &[f64], outcome: &mut Outcome) -> Vec<[usize; 2]> {
+        let total = sum(self.model.threads, values.len(), |place| values[place]);
         // A cell is pushed away at least that far.
-        let bound = outcome.approach - least;
-        let [nx, _] = self.model.cells.counts;
-        let outside = |cell: usize| window.place([cell % nx, cell / nx]).is_none();
-        let doubtful = |cell: usize| self.scaled.gap(cell) < bound && outside(cell);
-        let all = self.model.cells.count();
-        let inside: Vec<usize> = window.cells().collect();
-        if !(0..all).any(doubtful) {
-            return None;
-        }
-        let mut looked_at = ContactSet::of([all, 1], doubtful).cells;
-        looked_at.sort_unstable();
-        let is_loaded = ContactSet::of([values.len(), 1], |place| values[place] > 0.0);
-        let mut pressing: Vec<(usize, f64)> =
-            is_loaded.cells.iter().map(|place| (inside[*place as usize], values[*place as usize])).collect();
-        pressing.sort_unstable_by_key(|(cell, _)| *cell);
-        let is_in = |cell: usize| {
-            looked_at.binary_search(&(cell as u32)).is_ok()
-                || pressing.binary_search_by_key(&cell, |(cell, _)| *cell).is_ok()
-        };
-        let view = Window::around(&self.model.kernel, [0, 0], is_in)?;
-        let mut field = vec![0.0; view.sizes.0[0] * view.sizes.0[1]];
-        for (cell, p) in &pressing {
-            if let Some(place) = view.place([cell % nx, cell / nx]) {
-                field[place] = *p;
+        let bound = outcome.approach - self.model.kernel.least() * total;
+        let [nx, ny] = self.model.cells.counts;
+        let mut extent = Extent::empty([nx, ny]);
+        let mut doubtful = Vec::new();
+        for y in 0..ny {
+            for x in 0..nx {
+                let gap = self.scaled.gap(y * nx + x);
+                if gap < bound && window.place([x, y]).is_none() {
+                    extent.mark([x, y]);
+                    doubtful.push(([x, y], gap));
+                }
             }
         }
+        if doubtful.is_empty() {
+            return Vec::new();
+        }
+        extent.mark_loaded(window, values);
+        let Some(view) = Window::around(&self.model.kernel, [0, 0], &extent) else { return Vec::new() };
+        let field = moved(window, values, &view);
         let mut u = vec![0.0; field.len()];
         let mut convolution = self.model.convolution(view.sizes);
         convolution.apply(&Dense { width: view.sizes.0[0], input: &field }, &mut u);
         self.model.keep(view.sizes, convolution);
         self.pairs += 1;
-        let mut low = Vec::new();
-        let (mut error, scale) = (0.0_f64, if outcome.error > 0.0 { 1.0 } else { 0.0 });
-        let _ = scale;
-        for cell in looked_at.iter().map(|cell| *cell as usize) {
-            let Some(place) = view.place([cell % nx, cell / nx]) else { continue };
-            let overlap = outcome.approach - self.scaled.gap(cell) - u[place];
-            error = error.max(overlap);
-            if overlap > outcome.bar {
-                low.push(cell);
-            }
-        }
+        let overlap = |at: [usize; 2], gap: f64| view.place(at).map_or(0.0, |place| outcome.approach - gap - u[place]);
+        let most = doubtful.iter().map(|(at, gap)| overlap(*at, *gap)).fold(0.0, f64::max);
+        let low = doubtful.iter().filter(|(at, gap)| overlap(*at, *gap) > outcome.bar).map(|(at, _)| *at).collect();
         if self.scaled.scale > 0.0 {
-            outcome.error = outcome.error.max(error / self.scaled.scale);
+            outcome.error = outcome.error.max(most / self.scaled.scale);
         }
-        (!low.is_empty()).then_some(low)
+        low
     }
 }
 
-/// Margin around the contact when a window turned out too small.
-fn margin(counts: &[usize; 2], window: &Window) -> [usize; 2] {
-    [0, 1].map(|axis| if counts[axis] > 1 { 2 + window.sizes.0[axis] / 8 } else { 0 })
+/// The pressures of a window on another one that holds all that are not zero.
+fn moved(window: &Window, values: &[f64], to: &Window) -> Vec<f64> {
+    let mut moved = vec![0.0; to.sizes.0[0] * to.sizes.0[1]];
+    for (place, value) in values.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+        if let Some(place) = to.place(window.at(place)) {
+            moved[place] = *value;
+        }
+    }
+    moved
 }
 
-/// Writes the pressures of a window to the surface, and zero elsewhere.
-fn put(window: &Window, values: &[f64], pressure: &mut [f64]) {
-    pressure.fill(0.0);
-    for (cell, value) in window.cells().zip(values) {
-        pressure[cell] = *value;
+/// Writes the pressures of a window times a factor to the surface, and zero elsewhere.
+fn put(window: &Window, values: &[f64], factor: f64, pressure: &mut [f64]) {
+    if !window.is_whole() {
+        pressure.fill(0.0);
+    }
+    let mut values = values.iter();
+    for range in window.ranges() {
+        for (to, from) in pressure[range].iter_mut().zip(&mut values) {
+            *to = from * factor;
+        }
     }
 }

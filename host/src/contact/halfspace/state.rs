@@ -14,7 +14,7 @@ pub struct State {
     pub lowest: f64,
     /// Largest displacement, or what the largest pressure displaces its own cell, if that is more, in contact.
     pub displaced: f64,
-    /// Largest gap without pressure in contact.
+    /// Largest gap without pressure in contact, or what the pressure does to it before anything cancels.
     pub height: f64,
     /// Sum of p (u / 2 + gap).
     pub energy: f64,
@@ -37,7 +37,7 @@ impl State {
                     part.weighted[0] += p * gap;
                     part.weighted[1] += p * gap.abs();
                     part.displaced = part.displaced.max(u.abs()).max(own * p);
-                    part.height = part.height.max(first.abs());
+                    part.height = part.height.max(first.abs()).max((own + patch.local(cell)) * p);
                     part.energy += p * (0.5 * u + first);
                     part.energies += p * (0.5 * u.abs() + first.abs());
                 }
@@ -146,4 +146,11 @@ pub fn project(patch: &Patch<'_>, values: &mut [f64]) {
         values.iter_mut().for_each(|value| *value -= shift);
     }
     values.iter_mut().for_each(|value| *value = value.max(0.0));
+}
+
+/// Moves values back towards those before, all not negative, until none is below zero.
+pub fn stop_at_zero(before: &[f64], values: &mut [f64]) {
+    let reach = |(from, to): (&f64, &f64)| if *to < 0.0 { from / (from - to) } else { 1.0 };
+    let step = before.iter().zip(values.iter()).map(reach).fold(1.0, f64::min);
+    values.iter_mut().zip(before).for_each(|(to, from)| *to = from + step * (*to - from));
 }

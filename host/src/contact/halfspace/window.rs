@@ -1,5 +1,7 @@
 //! Rectangles of cells that hold the contact.
 
+use std::ops::Range;
+
 use super::Boundary;
 use super::kernel::{Kernel, Sizes};
 
@@ -20,9 +22,9 @@ impl Window {
         Window { origin: [0, 0], sizes: kernel.sizes(kernel.counts), all: kernel.counts }
     }
 
-    /// Around the cells that a function picks, and a margin; `None`: there are none.
-    pub fn around(kernel: &Kernel, margin: [usize; 2], pick: impl Fn(usize) -> bool) -> Option<Window> {
-        let (first, counts) = range(kernel, pick)?;
+    /// Around what an extent covers, and a margin; `None`: that is nothing.
+    pub fn around(kernel: &Kernel, margin: [usize; 2], extent: &Extent) -> Option<Window> {
+        let (first, counts) = extent.range(kernel.boundary)?;
         Some(Window::over(kernel, first, [0, 1].map(|axis| counts[axis] + 2 * margin[axis]), margin))
     }
 
@@ -30,8 +32,8 @@ impl Window {
     pub fn lowest(kernel: &Kernel, gap: impl Fn(usize) -> f64) -> Window {
         let cells = kernel.counts[0] * kernel.counts[1];
         let lowest = (0..cells).map(&gap).fold(f64::INFINITY, f64::min);
-        Window::around(kernel, [2, 2], |cell| gap(cell) < 0.0 || gap(cell) == lowest)
-            .unwrap_or_else(|| Window::whole(kernel))
+        let extent = Extent::of(kernel.counts, |cell| gap(cell) < 0.0 || gap(cell) == lowest);
+        Window::around(kernel, [2, 2], &extent).unwrap_or_else(|| Window::whole(kernel))
     }
 
     /// Over `counts` cells and what makes full use of the transforms, the first `before` cells being margin.
@@ -62,37 +64,91 @@ impl Window {
     }
 
     /// The place in the window of a column and row of the surface.
+    #[inline]
     pub fn place(&self, at: [usize; 2]) -> Option<usize> {
-        let along = |axis: usize| (at[axis] + self.all[axis] - self.origin[axis]) % self.all[axis];
+        let along = |axis: usize| {
+            let (at, origin) = (at[axis], self.origin[axis]);
+            if at >= origin { at - origin } else { at + self.all[axis] - origin }
+        };
         let [x, y] = [along(0), along(1)];
         let [nx, ny] = self.sizes.0;
         (x < nx && y < ny).then_some(y * nx + x)
     }
 
-    /// The cells of the surface under the window, in the order of the window.
-    pub fn cells(&self) -> impl Iterator<Item = usize> + '_ {
+    /// The column and row of the surface at a place in the window.
+    #[inline]
+    pub fn at(&self, place: usize) -> [usize; 2] {
+        let nx = self.sizes.0[0];
+        let along = |at: usize, axis: usize| {
+            let at = at + self.origin[axis];
+            if at < self.all[axis] { at } else { at - self.all[axis] }
+        };
+        [along(place % nx, 0), along(place / nx, 1)]
+    }
+
+    /// The cells of the surface under the window, in the order of the window, as ranges.
+    pub fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         let ([nx, ny], [all_x, all_y]) = (self.sizes.0, self.all);
+        let first = nx.min(all_x - self.origin[0]);
         (0..ny).flat_map(move |y| {
             let row = (self.origin[1] + y) % all_y * all_x;
-            (0..nx).map(move |x| row + (self.origin[0] + x) % all_x)
+            let begin = row + self.origin[0];
+            [begin..begin + first, row..row + nx - first]
         })
+    }
+
+    /// The values of an array over the surface under the window.
+    pub fn gather<T>(&self, of: impl Fn(usize) -> T) -> Vec<T> {
+        let mut values = Vec::with_capacity(self.sizes.0[0] * self.sizes.0[1]);
+        self.ranges().for_each(|range| values.extend(range.map(&of)));
+        values
     }
 }
 
-/// The smallest rectangle with all cells that a function picks: its first column and row, and its size.
-pub fn range(kernel: &Kernel, pick: impl Fn(usize) -> bool) -> Option<([usize; 2], [usize; 2])> {
-    let [nx, ny] = kernel.counts;
-    let (mut columns, mut rows) = (vec![false; nx], vec![false; ny]);
-    for (y, row) in rows.iter_mut().enumerate() {
-        for (x, column) in columns.iter_mut().enumerate() {
-            if pick(y * nx + x) {
-                (*column, *row) = (true, true);
+/// Which columns and rows something touches.
+#[derive(Clone, Debug)]
+pub struct Extent {
+    columns: Vec<bool>,
+    rows: Vec<bool>,
+}
+
+impl Extent {
+    /// Of nothing.
+    pub fn empty(counts: [usize; 2]) -> Extent {
+        Extent { columns: vec![false; counts[0]], rows: vec![false; counts[1]] }
+    }
+
+    /// Of the cells that a function picks.
+    pub fn of(counts: [usize; 2], pick: impl Fn(usize) -> bool) -> Extent {
+        let mut extent = Extent::empty(counts);
+        for (y, row) in extent.rows.iter_mut().enumerate() {
+            for (x, column) in extent.columns.iter_mut().enumerate() {
+                if pick(y * counts[0] + x) {
+                    (*column, *row) = (true, true);
+                }
             }
         }
+        extent
     }
-    let periodic = kernel.boundary == Boundary::Periodic;
-    let (x, y) = (span(&columns, periodic)?, span(&rows, periodic)?);
-    Some(([x.0, y.0], [x.1, y.1]))
+
+    /// Takes one more cell.
+    pub fn mark(&mut self, [x, y]: [usize; 2]) {
+        (self.columns[x], self.rows[y]) = (true, true);
+    }
+
+    /// Takes the loaded cells of a window.
+    pub fn mark_loaded(&mut self, window: &Window, pressure: &[f64]) {
+        for (place, _) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
+            self.mark(window.at(place));
+        }
+    }
+
+    /// The smallest rectangle around it: its first column and row, and its size.
+    pub fn range(&self, boundary: Boundary) -> Option<([usize; 2], [usize; 2])> {
+        let periodic = boundary == Boundary::Periodic;
+        let (x, y) = (span(&self.columns, periodic)?, span(&self.rows, periodic)?);
+        Some(([x.0, y.0], [x.1, y.1]))
+    }
 }
 
 /// The shortest range with all that is taken, across the end if it is periodic: its first and its length.
