@@ -96,11 +96,14 @@ impl<'o> Going<'o> {
         }
     }
 
-    /// Moves the clocks to the end of a step.
+    /// Moves the clocks to the end of a step; `cycles_per_time` is per represented time.
     pub(super) fn moved(&mut self, segment: &Segment<'_>, length: f64, at: f64, cycles_per_time: f64) {
         self.clock.simulated = at;
         self.clock.represented = segment.represented_at(at);
-        self.clock.cycles += length * cycles_per_time;
+        let cycles = self.clock.cycles + length * segment.scale * cycles_per_time;
+        // Sums of parts of cycles round; at their ends the cycles are whole.
+        let whole = cycles.round();
+        self.clock.cycles = if (cycles - whole).abs() <= 1e-9 { whole } else { cycles };
         self.clock.temperature = segment.at(at).temperature;
     }
 

@@ -49,7 +49,7 @@ impl<'p> Coupled<'p> {
             };
             going.place.length = segment.length;
             let period: f64 = block.steps.iter().filter_map(|step| step.duration).sum();
-            let per_time = if block.cycle && period > 0.0 { place.scale / period } else { 0.0 };
+            let per_time = if block.cycle && period > 0.0 { period.recip() } else { 0.0 };
             self.segment(system, going, segment, per_time)?;
             going.place.step += 1;
             going.place.entered = false;
