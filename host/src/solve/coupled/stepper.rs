@@ -287,7 +287,7 @@ impl Stepper {
         system.substep = Substep { segment, start: reach.start, dt: length * segment.scale, number: reach.number };
         let (from, to) = (segment.at(reach.start).control, segment.at(reach.until).control);
         if from != to {
-            system.press(to, &self.wear).map_err(PointError::from)?;
+            system.press(to, &self.wear)?;
         }
         self.fresh = false;
         Ok(Accepted { length, ..Accepted::default() })
