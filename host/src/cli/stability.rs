@@ -144,7 +144,7 @@ fn steps(console: &Console, ladder: &Ladder) -> String {
     for (control, held) in groups {
         let contact = if held { "contact held to the cells of the start" } else { "contact as it comes" };
         let title = format!(
-            "{} steps of r / stiffness each (the explicit limit is r = 2), given {}, {contact}",
+            "{} steps of r / stiffness each (explicit limit: r = 2), given {}, {contact}",
             ladder.steps,
             control.word()
         );
@@ -203,7 +203,7 @@ fn cells(row: &Row, none_tried: bool) -> Vec<String> {
                 ratio,
                 row.method.clone(),
                 short(seen.roughness),
-                short(seen.ripple),
+                seen.ripple.map_or_else(|| "-".to_owned(), short),
                 short(seen.center_pressure),
                 short(seen.lowest_pressure),
                 short(seen.wear_over_reach),

@@ -14,6 +14,8 @@ pub const ROUGH: f64 = 0.5;
 /// Amplitude of the ripple, over that at the start, from which it grows; the rest is what the filter leaves of the
 /// smooth part.
 pub const GROWS: f64 = 1.02;
+/// Amplitude of the ripple in a pressure without it, over that at the start, up to which it says something.
+const CLEAR: f64 = 0.1;
 /// Part of the largest pressure below which a negative one is an error of the contact solve.
 pub const NEGATIVE: f64 = 1e-4;
 /// Wear over what can be reached, from which a point is over-worn: the rest is the tolerance of the contact solves.
@@ -82,6 +84,12 @@ impl Ripple {
         bends(cells, &self.deep, &bends(cells, &self.inner, values))
     }
 
+    /// Whether the amplitude says anything: a pressure without the mode has next to none of it.
+    #[must_use]
+    pub fn is_clear(&self, cells: &Cells, smooth: &[f64]) -> bool {
+        !self.weights.is_empty() && self.amplitude(cells, smooth).abs() <= CLEAR
+    }
+
     /// The amplitude in a pressure; 0 where the contact is too small to tell a mode from its edge.
     #[must_use]
     pub fn amplitude(&self, cells: &Cells, pressure: &[f64]) -> f64 {
@@ -107,8 +115,9 @@ pub fn roughness(cells: &Cells, inner: &[u32], pressure: &[f64], floor: f64) -> 
 pub struct Seen {
     /// Largest roughness of any step beyond that of the refined run and of the ripple that the steps began with.
     pub roughness: f64,
-    /// Amplitude of the mode that decays fastest, over that at the start: above 1 it grows. The largest after any step.
-    pub ripple: f64,
+    /// Amplitude of the mode that decays fastest, over that at the start: above 1 it grows. The largest after any step;
+    /// `None`: the contact is too small to tell it from the edge.
+    pub ripple: Option<f64>,
     /// Pressure at the cell that carries most at the start, over that of the refined run.
     pub center_pressure: f64,
     /// Lowest pressure.
@@ -157,12 +166,13 @@ impl Seen {
     /// Everything that is wrong; nothing: positive, smooth and bounded.
     #[must_use]
     pub fn faults(&self) -> Vec<Fault> {
-        let numbers = [self.roughness, self.ripple, self.center_pressure, self.wear_over_reach, self.error];
+        let ripple = self.ripple.unwrap_or(0.0);
+        let numbers = [self.roughness, ripple, self.center_pressure, self.wear_over_reach, self.error];
         if numbers.iter().any(|number| !number.is_finite()) {
             return vec![Fault::Diverged];
         }
         let mut faults = Vec::new();
-        if self.roughness > ROUGH || self.ripple > GROWS {
+        if self.roughness > ROUGH || ripple > GROWS {
             faults.push(Fault::Rough);
         }
         if self.lowest_pressure < -NEGATIVE {
@@ -208,13 +218,15 @@ mod tests {
         let mode: Vec<f64> =
             (0..576).map(|k| if set[k] { 0.01 * sign(k) * (1.0 - square(k) / 120.0) } else { 0.0 }).collect();
         let ripple = Ripple::new(&cells, &set, &mode);
-        for (height, amplitude) in [(1.0, 1.0), (0.7, 0.3), (0.0, -2.0)] {
+        for (height, amplitude) in [(1.0, 1.0), (0.7, 0.3), (0.0, -2.0), (1.0, 0.0)] {
             let hertz = |k: usize| height * (1.0 - square(k) / 100.0).max(0.0).sqrt();
             let pressure: Vec<f64> = (0..576).map(|k| hertz(k) + amplitude * mode[k]).collect();
             let found = ripple.amplitude(&cells, &pressure);
             assert!((found - amplitude).abs() < 0.01, "{found} against {amplitude}");
+            assert_eq!(ripple.is_clear(&cells, &pressure), amplitude == 0.0);
         }
         let tiny = Ripple::new(&cells, &[true, true, true, false], &[1.0, -1.0, 1.0, 0.0]);
+        assert!(!tiny.is_clear(&cells, &[0.0; 4]));
         assert_eq!(tiny.amplitude(&cells, &[1.0, -1.0, 1.0, 0.0]), 0.0);
     }
 
@@ -233,11 +245,11 @@ mod tests {
         let fine = Seen { center_pressure: 1.0, wear_over_reach: 1.0, ..Seen::default() };
         assert_eq!(fine.faults(), []);
         let with = |seen: Seen| seen.faults();
-        assert_eq!(with(Seen { ripple: 1.1, ..fine.clone() }), [Fault::Rough]);
+        assert_eq!(with(Seen { ripple: Some(1.1), ..fine.clone() }), [Fault::Rough]);
         assert_eq!(with(Seen { roughness: 2.0, ..fine.clone() }), [Fault::Rough]);
         assert_eq!(with(Seen { lowest_pressure: -0.01, ..fine.clone() }), [Fault::Pulls]);
         assert_eq!(with(Seen { wear_over_reach: 2.4, ..fine.clone() }), [Fault::OverWorn]);
         assert_eq!(with(Seen { overlap: 0.1, ..fine.clone() }), [Fault::Overlaps]);
-        assert_eq!(with(Seen { ripple: f64::NAN, ..fine }), [Fault::Diverged]);
+        assert_eq!(with(Seen { ripple: Some(f64::NAN), ..fine }), [Fault::Diverged]);
     }
 }

@@ -8,7 +8,7 @@ use super::segment::{Driven, Segment};
 use super::system::{Substep, System};
 use crate::contact::Control;
 use crate::integrator::{Formula, Reply};
-use crate::plan::Elastic;
+use crate::plan::{Elastic, Slope};
 use crate::record::Stability;
 use crate::scene::{BeyondLimit, Mode};
 use crate::solve::{PointError, SolveError};
@@ -80,7 +80,18 @@ impl System<'_> {
     /// Looks the law up at `room.cells`, in a step as short as it wishes; false if no step is short enough.
     fn linearised(&mut self, driven: Driven, point: &[f64]) -> Result<bool, PointError> {
         for _ in 0..MOST_CUTS {
-            match self.linearise_listed(driven, point)? {
+            let reply = match self.solved.scheme.slope {
+                // Of degree 1 the slope is the increment over the pressure, to the last digit.
+                Slope::Proportional => self.evaluate(driven, point, false)?,
+                Slope::Derivative | Slope::Difference => self.linearise_listed(driven, point)?,
+            };
+            match reply {
+                Reply::Good if self.solved.scheme.slope == Slope::Proportional => {
+                    let pairs = self.law.increment.iter().zip(&self.room.compact);
+                    self.law.slope.clear();
+                    self.law.slope.extend(pairs.map(|(increment, pressure)| increment / pressure));
+                    return Ok(true);
+                }
                 Reply::Good => return Ok(true),
                 Reply::Cut(factor) => self.substep.dt *= factor,
             }

@@ -43,7 +43,8 @@ pub(super) struct Start<'a> {
     inner: Vec<u32>,
     /// Wear with a ripple of the mode that decays fastest.
     wear: Vec<f64>,
-    ripple: Ripple,
+    /// `None`: the contact is too small to tell the mode from its edge.
+    ripple: Option<Ripple>,
     largest: f64,
     center: usize,
     stiffness: f64,
@@ -113,10 +114,8 @@ impl<'a> Start<'a> {
         };
         let pattern: Vec<f64> = pattern.iter().map(|p| amplitude * p).collect();
         let cells = &run.solved.cells;
-        let ripple = match pattern.is_empty() {
-            true => Ripple::default(),
-            false => Ripple::new(cells, &set, &pattern),
-        };
+        let ripple = (!pattern.is_empty()).then(|| Ripple::new(cells, &set, &pattern));
+        let ripple = ripple.filter(|ripple| ripple.is_clear(cells, &present.pressure));
         Start { present, inner: interior(cells, &set), set, wear, ripple, largest, center, stiffness }
     }
 }
@@ -212,13 +211,15 @@ impl<'p> Coupled<'p> {
         let bends = |pressure: &[f64]| roughness(&cells, &start.inner, pressure, floor);
         let came = self.course(start, how, |course| {
             let before = bends(&course.system.pressure);
-            let mut ripple: f64 = 0.0;
+            let mut ripple = start.ripple.as_ref().map(|_| 0.0);
             for k in 1..=count {
                 course.step(dt * f64::from(k))?;
                 if course.is_outside() {
                     return Ok(Came::Outside);
                 }
-                ripple = ripple.max(start.ripple.amplitude(&cells, &course.system.pressure).abs());
+                if let (Some(most), Some(mode)) = (&mut ripple, &start.ripple) {
+                    *most = f64::max(*most, mode.amplitude(&cells, &course.system.pressure).abs());
+                }
                 if bends(&course.system.pressure) > before + BROKEN {
                     break;
                 }
@@ -239,7 +240,7 @@ impl<'p> Coupled<'p> {
         course: &mut Course<'_>,
         how: How<'_>,
         refined: &Refined,
-        (roughness, ripple): (f64, f64),
+        (roughness, ripple): (f64, Option<f64>),
     ) -> Seen {
         let system = &mut course.system;
         let (pressure, wear) = (&system.pressure, &course.stepper.wear);

@@ -1,3 +1,5 @@
+use std::f64::consts::{FRAC_PI_2, SQRT_2};
+
 use super::*;
 use crate::contact::foundation::Foundation;
 use crate::contact::halfspace::{Boundary, HalfSpace};
@@ -32,8 +34,8 @@ fn within(found: f64, expected: f64, part: f64) {
 
 #[test]
 fn spectral_contact_has_the_eigenvalues_of_its_shortest_waves() {
-    within(uniform(&mut half_space(line(64), Boundary::Periodic), &[true; 64], true), 1.5708, 1e-3);
-    within(uniform(&mut half_space(square(16), Boundary::Periodic), &[true; 256], true), 2.2214, 1e-3);
+    within(uniform(&mut half_space(line(64), Boundary::Periodic), &[true; 64], true), FRAC_PI_2, 1e-3);
+    within(uniform(&mut half_space(square(16), Boundary::Periodic), &[true; 256], true), SQRT_2 * FRAC_PI_2, 1e-3);
 }
 
 #[test]
