@@ -1,8 +1,11 @@
 // Rule broken: one instance may be evaluated from several threads at once.
-// The increments are scaled through one static vector, which every call fills and reads again.
+// The increments are scaled through one static vector, which every call fills and reads again; a pause in between makes
+// sure that a busy machine shows it.
 #define LAW_NAME "shares-a-vector"
 #include "sound_law.hpp"
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
 static int32_t evaluate_batch(void *instance, const wl_view *view, wl_output *output) {
@@ -12,6 +15,7 @@ static int32_t evaluate_batch(void *instance, const wl_view *view, wl_output *ou
     for (int64_t i = 0; i < points; ++i) {
         scratch[static_cast<size_t>(i)] = 2 * output->increment[i];
     }
+    std::this_thread::sleep_for(std::chrono::microseconds(points > 7 ? 100 : 0));
     for (int64_t i = 0; i < points; ++i) {
         output->increment[i] = scratch[static_cast<size_t>(i)] / 2;
     }

@@ -1,5 +1,5 @@
 //! Rule broken: one instance may be evaluated from several threads at once. Slips pass through one static cell that is
-//! said to be safe to share, and is not.
+//! said to be safe to share, and is not; a pause at one pressure in 64 makes sure that a busy machine shows it.
 #![allow(unsafe_code)] // reason: the fault is a promise to the compiler that does not hold.
 
 use std::cell::UnsafeCell;
@@ -22,8 +22,8 @@ impl PointLaw for SharesACell {
         // SAFETY: right in one thread; volatile, so that the compiler does not take the detour away.
         let slip = unsafe {
             SCRATCH.0.get().write_volatile(at.slip);
-            for _ in 0..20 {
-                std::hint::spin_loop();
+            if at.pressure.to_bits() % 64 == 7 {
+                std::thread::sleep(std::time::Duration::from_micros(30));
             }
             SCRATCH.0.get().read_volatile()
         };
