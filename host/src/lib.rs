@@ -7,6 +7,7 @@
 
 pub mod apdl;
 pub mod cli;
+pub mod conformance;
 pub mod contact;
 pub mod error;
 pub mod exit_code;
