@@ -6,12 +6,13 @@ mod sources;
 use std::path::Path;
 
 /// Each top-level module and the others of the crate that it may name.
-const MAY_USE: [(&str, &[&str]); 14] = [
+const MAY_USE: [(&str, &[&str]); 15] = [
     ("scene", &[]),
     ("reference", &[]),
     ("contact", &[]),
     ("record", &[]),
     ("law", &[]),
+    ("conformance", &["law", "reference"]),
     ("apdl", &["scene"]),
     ("integrator", &["law", "contact"]),
     ("plan", &["scene", "apdl", "law", "contact", "integrator", "reference"]),
@@ -27,6 +28,7 @@ const MAY_USE: [(&str, &[&str]); 14] = [
 const ALL_BUT_CLI: &[&str] = &[
     "scene",
     "reference",
+    "conformance",
     "contact",
     "record",
     "law",

@@ -24,7 +24,7 @@ pub mod loader;
 pub mod lookup;
 pub mod memory;
 mod number_text;
-mod table;
+pub(crate) mod table;
 pub mod values;
 
 pub use batch::{Batch, BatchBuilder, BatchError, Outputs};
