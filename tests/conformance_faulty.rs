@@ -4,6 +4,8 @@
 //! no other. Without `WEARLAW_FAULTY=all` the whole tester meets a seeded part of the laws only (`WEARLAW_FAULTY_SEED`).
 #![cfg(target_os = "linux")]
 
+#[path = "conformance_faulty/diagonal.rs"]
+mod diagonal;
 #[path = "conformance_faulty/fixtures.rs"]
 mod fixtures;
 #[path = "conformance_faulty/proof.rs"]

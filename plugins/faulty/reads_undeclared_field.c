@@ -3,8 +3,8 @@
  * The temperature is read and not declared, so that the pointer is NULL.
  */
 #define LAW_NAME "reads-undeclared-field"
-#define BEFORE_POINTS                                                               \
-    if (v->points > 0 && *(volatile const double *)v->temperature.ptr < 0) {        \
-        return WL_OUT_OF_DOMAIN;                                                    \
+#define AT_POINT                                                                    \
+    if (*(volatile const double *)&VALUE_AT(v->temperature, i) < 0) {               \
+        status = WL_OUT_OF_DOMAIN;                                                  \
     }
 #include "sound_law.h"

@@ -15,9 +15,11 @@
         own->substep = v->substep;                                                          \
     }
 #define AT_POINT                                                                            \
-    if (i < 4096 && s > 0) {                                                                \
-        double exact = start[0] + s + own->rest[0][i];                                      \
+    if (s > 0 && a.state[0] < 1e30) {                                                       \
+        double exact = start[0] + s + (i < 4096 ? own->rest[0][i] : 0);                     \
         a.state[0] = (double)(float)exact;                                                  \
-        own->rest[1][i] = exact - a.state[0];                                               \
+        if (i < 4096) {                                                                     \
+            own->rest[1][i] = exact - a.state[0];                                           \
+        }                                                                                   \
     }
 #include "sound_law.h"
