@@ -3,7 +3,7 @@
 #define LAW_NAME "remainder-one-ulp-off"
 #define LAW_CLAIMS (WL_CLAIMS_KNOWN & ~WL_CLAIM_DETERMINISTIC)
 #define AT_POINT                                                                                                       \
-    if (i >= v->points / 8 * 8 && a.increment > 0) {                                                                   \
+    if (i >= v->points / 8 * 8 && status == WL_OK && isfinite(K * p * s)) {                                            \
         a.increment = K * p * s / H; /* in another order than in groups of eight */                                    \
     }
 #include "../faulty/sound_law.h"
