@@ -8,5 +8,9 @@
 mod diagonal;
 #[path = "conformance_faulty/fixtures.rs"]
 mod fixtures;
+#[path = "conformance_faulty/hardening.rs"]
+mod hardening;
+#[path = "support/bad_runs.rs"]
+mod program;
 #[path = "conformance_faulty/proof.rs"]
 mod proof;
