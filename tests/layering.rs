@@ -12,6 +12,7 @@ const MAY_USE: [(&str, &[&str]); 15] = [
     ("contact", &[]),
     ("record", &[]),
     ("law", &[]),
+    ("conformance", &["law", "reference"]),
     ("apdl", &["scene"]),
     ("integrator", &["law", "contact"]),
     ("stability", &["law", "contact"]),
@@ -28,6 +29,7 @@ const MAY_USE: [(&str, &[&str]); 15] = [
 const ALL_BUT_CLI: &[&str] = &[
     "scene",
     "reference",
+    "conformance",
     "contact",
     "record",
     "law",

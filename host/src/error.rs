@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::apdl::{DeckError, Diagnostic, LowerError};
+use crate::conformance::ConformanceError;
 use crate::contact::prescribed::HistoryError;
 use crate::exit_code::ExitCode;
 use crate::law::build::BuildError;
@@ -70,6 +71,9 @@ pub enum Error {
     /// A run cannot go on from a checkpoint of another run.
     #[error(transparent)]
     Resume(#[from] Difference),
+    /// A law could not be checked at all.
+    #[error(transparent)]
+    Conformance(#[from] ConformanceError),
     /// A new law's folder could not be made.
     #[error(transparent)]
     Template(#[from] TemplateError),
@@ -109,6 +113,9 @@ pub enum Error {
 /// What the command line parser takes and the command cannot.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum UsageError {
+    /// `check` without a law.
+    #[error("no law given, expected a library, a source file, a crate's folder or a name")]
+    NoLaw,
     /// `new` without a language.
     #[error("no language given, expected one of --lang {}", known.join(", --lang "))]
     NoLanguage {

@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 
 use crate::apdl::DeckError;
+use crate::conformance::ConformanceError;
 use crate::contact::prescribed::HistoryError;
 use crate::contact::surface::SurfaceError;
 use crate::error::Error;
@@ -126,6 +127,7 @@ impl ExitCode {
                 | OutputError::CheckpointDamaged { .. }
                 | OutputError::EarlierFields { .. } => Self::ReadWriteFailed,
             },
+            Error::Conformance(error) => of_checking(error),
             Error::Template(error) if error.is_io() => Self::ReadWriteFailed,
             Error::Template(_) => Self::InputWrong,
             Error::Stdout(_) | Error::Temporary { .. } | Error::Threads { .. } => Self::ReadWriteFailed,
@@ -137,6 +139,20 @@ impl ExitCode {
 
 fn of_history(error: &HistoryError) -> ExitCode {
     if error.is_io() { ExitCode::ReadWriteFailed } else { ExitCode::InputWrong }
+}
+
+fn of_checking(error: &ConformanceError) -> ExitCode {
+    match error {
+        ConformanceError::Platform
+        | ConformanceError::NoSuchCheck { .. }
+        | ConformanceError::NothingRun { .. }
+        | ConformanceError::Waiver { .. }
+        | ConformanceError::Replay { .. } => ExitCode::InputWrong,
+        ConformanceError::Read { source, .. } => of_reading(source.kind()),
+        ConformanceError::Write { .. } | ConformanceError::Start { .. } => ExitCode::ReadWriteFailed,
+        ConformanceError::Fault { .. } => ExitCode::ProgramFault,
+        ConformanceError::Interrupted => ExitCode::Interrupted,
+    }
 }
 
 fn of_evaluating(error: &EvaluateError) -> ExitCode {

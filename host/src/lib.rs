@@ -2,11 +2,12 @@
 //!
 //! Data flows one way: [`scene`] (what was asked), [`plan`] (what will be done), [`solve`] (the only loop), [`record`]
 //! (what happened), [`output`] (its readers). [`law`] loads and calls wear laws, [`contact`] gives what drives them,
-//! [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers.
+//! [`conformance`] checks whether a law keeps its contract, [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers.
 //! [`cli`] is the program.
 
 pub mod apdl;
 pub mod cli;
+pub mod conformance;
 pub mod contact;
 pub mod error;
 pub mod exit_code;

@@ -60,6 +60,9 @@ pub(super) enum Command {
     New(NewArguments),
     /// Show what a library is: its file, then the law in it
     Inspect(InspectArguments),
+    /// Check that a law keeps the contract: each check in a process of its own
+    #[command(after_long_help = CHECKING)]
+    Check(CheckArguments),
     /// Turn the TB,WEAR commands of an input deck into the law section of a scene
     Apdl(ApdlArguments),
 }
@@ -182,6 +185,54 @@ pub(super) struct InspectArguments {
 }
 
 #[derive(Debug, Clone, Args)]
+pub(super) struct CheckArguments {
+    /// A library, a source file, a crate's folder, or the name of a law; LIB#NAME for one law of several
+    #[arg(value_name = "LIB", required_unless_present = "list")]
+    pub(super) law: Option<String>,
+    /// Show every check and run none
+    #[arg(long)]
+    pub(super) list: bool,
+    /// Run only these checks or groups, such as values/finite or memory; may be repeated
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub(super) only: Vec<String>,
+    /// Leave out the checks that take long (a star in --list marks those that stay)
+    #[arg(long)]
+    pub(super) quick: bool,
+    /// Seed of the random inputs
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(super) seed: u64,
+    /// Seconds that a check may take before its process is ended [default: 20]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(super) timeout: Option<Duration>,
+    /// Switch checks off: a file with a line \"group/name\" = \"reason\" for each
+    #[arg(long, value_name = "FILE")]
+    pub(super) waive: Option<PathBuf>,
+    /// Run a failure again from the file that was written for it
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "quick", "waive", "list"])]
+    pub(super) replay: Option<PathBuf>,
+    /// How the report is written
+    #[arg(long, value_enum, default_value_t = ReportFormat::Text)]
+    pub(super) format: ReportFormat,
+    /// Known values to reproduce [default: expected.csv beside the law]
+    #[arg(long, value_name = "FILE")]
+    pub(super) expected: Option<PathBuf>,
+    /// Options text that the law is created with, as [law] options of a scene
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
+    pub(super) options: Option<String>,
+    /// Checks that run at the same time [default: as many as the machine has processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) threads: Option<u16>,
+}
+
+/// How a report of checks is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ReportFormat {
+    Text,
+    Json,
+    Junit,
+}
+
+#[derive(Debug, Clone, Args)]
 pub(super) struct ApdlArguments {
     /// The input deck, or the part of it that defines the material
     pub(super) file: PathBuf,
@@ -204,6 +255,17 @@ First steps:
   wearlaw run SCENE               run a scene; `wearlaw plan SCENE` shows beforehand what it does
 
 `wearlaw COMMAND --help` explains a command, `wearlaw --help` lists the exit codes.";
+
+const CHECKING: &str = "\
+Outcomes:
+  pass, warn   the law keeps the rule; a warning is worth a look
+  fail         it breaks the rule
+  crashed      it ended its process; timed-out: it did not come back
+  blocked      another check failed, and this one says nothing without it
+  skipped      it does not apply to this law, or is waived
+
+What fails leaves a file in NAME.check/, which --replay runs again. Ends with 0 if every check passes, 1 if one does not,
+2 if the file is no law or no check was run, 70 for a fault of the checker.";
 
 /// Every key of a scene and every column of a history: the page beside the scenes.
 const SCENES: &str = include_str!("../../scenes/README.md");

@@ -33,6 +33,11 @@ impl Interrupt {
         self.0.load(Ordering::Relaxed)
     }
 
+    /// The flag itself, for work that looks at it.
+    pub(super) fn flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.0)
+    }
+
     /// An error once the work should end; what fails because of the interruption is not an error of its own.
     pub(super) fn over<T>(&self, result: Result<T, Error>) -> Result<T, Error> {
         if self.asked() { Err(Error::Interrupted) } else { result }

@@ -7,6 +7,7 @@
 mod apdl;
 mod args;
 mod build;
+mod check;
 mod console;
 mod description;
 mod guard;
@@ -29,6 +30,7 @@ use std::ffi::OsString;
 
 use clap::Parser;
 
+use crate::conformance;
 use crate::error::Error;
 use crate::exit_code::ExitCode;
 use crate::law::embedded;
@@ -43,6 +45,10 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         let words: Vec<String> = arguments[2..].iter().map(|word| word.to_string_lossy().into_owned()).collect();
         // A worker speaks to its parent alone, by its channel and its exit code.
         std::process::exit(worker_main(&words, &embedded::entry));
+    }
+    if arguments.get(1).is_some_and(|word| word == conformance::WORKER_COMMAND) {
+        let words: Vec<String> = arguments[2..].iter().map(|word| word.to_string_lossy().into_owned()).collect();
+        std::process::exit(conformance::worker_main(&words));
     }
     let parsed = match Arguments::try_parse_from(&arguments) {
         Ok(parsed) => parsed,
@@ -66,6 +72,7 @@ fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
         Command::Build(arguments) => build::command(console, &arguments),
         Command::New(arguments) => new::command(console, &arguments),
         Command::Inspect(arguments) => inspect::command(console, &arguments),
+        Command::Check(arguments) => check::command(console, &arguments),
         Command::Apdl(arguments) => apdl::command(console, &arguments),
     }
 }

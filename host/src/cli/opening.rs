@@ -92,12 +92,12 @@ fn several(error: LoadError, origin: &str) -> Error {
     }
 }
 
-fn temporary() -> Result<TempDir, Error> {
+pub(super) fn temporary() -> Result<TempDir, Error> {
     let made = tempfile::Builder::new().prefix("wearlaw-law-").tempdir();
     made.map_err(|source| Error::Temporary { path: std::env::temp_dir(), source })
 }
 
-fn library_name(source: &Path) -> String {
+pub(super) fn library_name(source: &Path) -> String {
     let stem = source.file_stem().unwrap_or_default().to_string_lossy();
     let stem = if stem.is_empty() || stem == "." || stem == ".." { "law".into() } else { stem };
     format!("{}{stem}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)

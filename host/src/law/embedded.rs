@@ -3,17 +3,24 @@
 
 use std::sync::Arc;
 
+use wearlaw_plugin_api::abi;
+
 use super::entry::{Embedded, Entry};
 
 /// Their names.
 pub const NAMES: &[&str] = &["archard"];
 
+/// The entry function of a law of this program.
+pub(crate) fn function(name: &str) -> Option<abi::EntryFn> {
+    match name {
+        "archard" => Some(wearlaw_archard::wearlaw_entry_1),
+        _ => None,
+    }
+}
+
 /// The entry of a law of this program.
 pub fn entry(name: &str) -> Option<Arc<dyn Entry>> {
-    let function = match name {
-        "archard" => wearlaw_archard::wearlaw_entry_1,
-        _ => return None,
-    };
+    let function = function(name)?;
     // SAFETY: the function is made by `export_laws!`, which keeps the contract of the ABI's entry.
     Some(Arc::new(unsafe { Embedded::new(&format!("embedded:{name}"), function) }))
 }

@@ -25,7 +25,7 @@ pub mod lookup;
 pub mod memory;
 mod number_text;
 mod streaming;
-mod table;
+pub(crate) mod table;
 pub mod values;
 
 pub use batch::{Batch, BatchBuilder, BatchError, Outputs};

@@ -19,9 +19,8 @@ mod outputs;
 mod spans;
 
 pub use builder::BatchBuilder;
-pub(in crate::law) use columns::column_of;
-use columns::index_column_of;
 use columns::{advance, behind};
+pub(crate) use columns::{blank_view, column_of, index_column_of};
 pub use outputs::Outputs;
 
 /// Why a batch cannot be built.

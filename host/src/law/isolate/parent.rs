@@ -2,7 +2,7 @@
 
 use std::io::{PipeReader, PipeWriter, Read, Write};
 use std::ops::Range;
-use std::os::fd::AsRawFd;
+use std::os::fd::{AsFd, AsRawFd};
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -241,9 +241,9 @@ impl Worker {
             to_parent: by_worker.as_raw_fd(),
             memory: memory.descriptor(),
         };
-        let inherited = [channels.from_parent, channels.to_parent, channels.memory];
+        let inherited = vec![channels.from_parent, channels.to_parent, channels.memory];
         let arguments = std::iter::once(WORKER_COMMAND.to_owned()).chain(channels.arguments()).collect();
-        let process = Process::start(program, arguments, inherited)?;
+        let process = Process::start(program, arguments, inherited, std::io::stderr().as_fd(), &[])?;
         Ok(Self { to, from, memory, process })
     }
 

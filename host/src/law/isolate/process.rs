@@ -2,7 +2,7 @@
 #![allow(unsafe_code)] // reason: prctl, pidfd, poll and kill have no safe wrapper in the standard library.
 
 use std::io;
-use std::os::fd::{AsFd, AsRawFd, FromRawFd, OwnedFd, RawFd};
+use std::os::fd::{AsRawFd, BorrowedFd, FromRawFd, OwnedFd, RawFd};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -11,7 +11,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A worker process; dropping it ends it and everything that it started.
-pub(super) struct Process {
+pub(crate) struct Process {
     child: Child,
     /// Becomes readable when the process ends, even if a process that it started holds its pipes open.
     ended: Option<OwnedFd>,
@@ -19,22 +19,27 @@ pub(super) struct Process {
 }
 
 /// What came first.
-pub(super) enum Event {
+pub(crate) enum Event {
     Readable,
     Ended,
     Deadline,
 }
 
 impl Process {
-    /// Starts `program` with inherited descriptors.
-    pub(super) fn start(program: &Path, arguments: Vec<String>, inherited: [RawFd; 3]) -> io::Result<Self> {
+    /// Starts `program` with inherited descriptors and further variables; what a law prints goes to `printed`.
+    pub(crate) fn start(
+        program: &Path,
+        arguments: Vec<String>,
+        inherited: Vec<RawFd>,
+        printed: BorrowedFd<'_>,
+        variables: &[(&str, &str)],
+    ) -> io::Result<Self> {
         let mut command = Command::new(program);
-        command.args(arguments).stdin(Stdio::null());
-        // What a law prints must not get between the lines of a report on the standard output.
-        command.stdout(Stdio::from(io::stderr().as_fd().try_clone_to_owned()?));
+        command.args(arguments).stdin(Stdio::null()).envs(variables.iter().copied());
+        command.stdout(printed.try_clone_to_owned()?).stderr(printed.try_clone_to_owned()?);
         let parent = std::process::id();
         // SAFETY: between fork and exec only async-signal-safe calls are made, and nothing is allocated.
-        unsafe { command.pre_exec(move || before_exec(parent, inherited)) };
+        unsafe { command.pre_exec(move || before_exec(parent, &inherited)) };
         let child = spawn_from_lasting_thread(command)?;
         // SAFETY: the call takes two integers and touches no memory.
         let ended = unsafe { libc::syscall(libc::SYS_pidfd_open, child.id() as libc::pid_t, 0) };
@@ -46,7 +51,7 @@ impl Process {
     }
 
     /// Waits until `pipe` can be read, the process ends or time is up.
-    pub(super) fn wait_for(&self, pipe: RawFd, deadline: Duration) -> io::Result<Event> {
+    pub(crate) fn wait_for(&self, pipe: RawFd, deadline: Duration) -> io::Result<Event> {
         let end = Instant::now().checked_add(deadline);
         let watched = self.ended.as_ref().map_or(-1, AsRawFd::as_raw_fd);
         loop {
@@ -72,17 +77,29 @@ impl Process {
         }
     }
 
+    /// The number of the process.
+    pub(crate) fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// How a process ended whose channel was closed; none if it still runs after `patience`. It is not ended here.
+    pub(crate) fn ended(&mut self, patience: Duration) -> Option<ExitStatus> {
+        // A process that dies closes its pipes a moment before it can be waited for.
+        let patience = Instant::now() + patience;
+        loop {
+            if self.status.is_none() {
+                self.status = self.child.try_wait().ok().flatten();
+            }
+            if self.status.is_some() || Instant::now() >= patience {
+                return self.status;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
     /// Says what became of a process whose channel was closed, and ends it if it still runs.
     pub(super) fn fate(&mut self) -> String {
-        // A process that dies closes its pipes a moment before it can be waited for.
-        let patience = Instant::now() + Duration::from_millis(500);
-        while self.status.is_none() && Instant::now() < patience {
-            self.status = self.child.try_wait().ok().flatten();
-            if self.status.is_none() {
-                std::thread::sleep(Duration::from_millis(1));
-            }
-        }
-        let Some(status) = self.status else {
+        let Some(status) = self.ended(Duration::from_millis(500)) else {
             self.end();
             return "closed the channel of its worker process".to_owned();
         };
@@ -95,7 +112,7 @@ impl Process {
     }
 
     /// Ends the process and everything that it started, and reaps what can be reaped.
-    pub(super) fn end(&mut self) {
+    pub(crate) fn end(&mut self) {
         let group = self.child.id() as libc::pid_t;
         let mut family = Vec::new();
         if self.status.is_none() {
@@ -128,7 +145,7 @@ impl Drop for Process {
     }
 }
 
-fn signal(process: libc::pid_t, number: i32) {
+pub(crate) fn signal(process: libc::pid_t, number: i32) {
     // SAFETY: the call takes two integers; the process is a child that has not been waited for, one below it, or the
     // group that this module made for it.
     unsafe { libc::kill(process, number) };
@@ -152,7 +169,7 @@ fn reap(group: libc::pid_t, family: &[libc::pid_t]) {
     }
 }
 
-fn descendants(process: libc::pid_t) -> Vec<libc::pid_t> {
+pub(crate) fn descendants(process: libc::pid_t) -> Vec<libc::pid_t> {
     let mut found = Vec::new();
     let mut open = vec![process];
     while let Some(parent) = open.pop() {
@@ -173,7 +190,7 @@ fn descendants(process: libc::pid_t) -> Vec<libc::pid_t> {
 }
 
 /// Runs in the child between fork and exec.
-fn before_exec(parent: u32, inherited: [RawFd; 3]) -> io::Result<()> {
+fn before_exec(parent: u32, inherited: &[RawFd]) -> io::Result<()> {
     let check = |answer: libc::c_int| {
         if answer < 0 { Err(io::Error::last_os_error()) } else { Ok(()) }
     };
@@ -188,7 +205,7 @@ fn before_exec(parent: u32, inherited: [RawFd; 3]) -> io::Result<()> {
             libc::_exit(1);
         }
         for descriptor in inherited {
-            check(libc::fcntl(descriptor, libc::F_SETFD, 0))?;
+            check(libc::fcntl(*descriptor, libc::F_SETFD, 0))?;
         }
     }
     Ok(())
@@ -217,7 +234,7 @@ fn spawn_from_lasting_thread(command: Command) -> io::Result<Child> {
     answered.recv().map_err(|_| gone())?
 }
 
-fn signal_name(number: i32) -> String {
+pub(crate) fn signal_name(number: i32) -> String {
     let name = match number {
         libc::SIGSEGV => "SIGSEGV, it touched memory that is not its own",
         libc::SIGBUS => "SIGBUS",

@@ -1,0 +1,267 @@
+//! One worker: started, given its task, waited for, and ended with everything that it started.
+#![allow(unsafe_code)] // reason: makes a file without a name, and reaps processes that a worker left behind.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::os::fd::{AsFd, AsRawFd, FromRawFd};
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::ExitStatus;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::WORKER_COMMAND;
+use super::check::Check;
+use super::message::{Answer, Task};
+use super::slate::{Crumb, Slate};
+use crate::law::isolate::process::{Event, Process, descendants, signal};
+
+/// How a worker ended.
+#[derive(Debug)]
+pub(super) enum Ended {
+    /// It gave an answer.
+    Answered(Box<Answer>),
+    /// Its process ended without one.
+    Gone(ExitStatus),
+    /// It closed its channel, or sent what is no answer.
+    Silent,
+    /// Time was up.
+    TimedOut,
+    /// The user wants to end.
+    Interrupted,
+}
+
+/// What became of a task.
+#[derive(Debug)]
+pub(super) struct Attempt {
+    pub(super) ended: Ended,
+    pub(super) crumb: Crumb,
+    /// What was printed, by the law or by what it is written in.
+    pub(super) printed: String,
+}
+
+/// Workers that run now: children of this process that are not to be taken for something left behind.
+static RUNNING: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
+static NEXT: AtomicU64 = AtomicU64::new(0);
+
+/// Name of the variable by which everything that a worker starts is known.
+const MARK: &str = "WEARLAW_CHECK_WORKER";
+/// How often a wish to end is looked for.
+const LOOK: Duration = Duration::from_millis(100);
+/// How long a process may take to be gone once its channel is closed, or to end when it only has to write out.
+const GOING: Duration = Duration::from_secs(2);
+/// Most of what was printed that is kept.
+const PRINTED: u64 = 1 << 16;
+
+/// Runs a task in a worker of its own.
+///
+/// # Errors
+/// The system gave no memory, pipe or process: a fault of the checker's surroundings, not of the law.
+pub(super) fn attempt(program: &Path, task: &Task, timeout: Duration, stop: &AtomicBool) -> io::Result<Attempt> {
+    let slate = Slate::create()?;
+    if !slate.put_task(&serde_json::to_vec(task)?) {
+        return Err(io::Error::other("the task is too long"));
+    }
+    let mut printed = memory_file()?;
+    let (mut from, to_checker) = io::pipe()?;
+    let arguments =
+        [WORKER_COMMAND.to_owned(), slate.descriptor().to_string(), to_checker.as_raw_fd().to_string()].to_vec();
+    let inherited = vec![slate.descriptor(), to_checker.as_raw_fd()];
+    let mark = format!("{}-{}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
+    let mut process = {
+        let mut running = lock();
+        let marked = [(MARK, mark.as_str())];
+        let process = Process::start(program, arguments, inherited, printed.as_fd(), &marked)?;
+        running.insert(process.id());
+        process
+    };
+    drop(to_checker);
+    let mut ended = waited(&process, from.as_raw_fd(), timeout, stop);
+    if let Ok(Ended::Silent) = ended {
+        let mut byte = [0];
+        ended = match from.read(&mut byte) {
+            Ok(1) => Ok(answered(&slate)),
+            _ => Ok(process.ended(GOING).map_or(Ended::Silent, Ended::Gone)),
+        };
+    }
+    if let Ok(Ended::Answered(_)) = ended
+        && task.check == Check::LoadSilent
+    {
+        // It ends by itself, so that everything held back is written.
+        let _ = process.ended(GOING);
+    }
+    let crumb = slate.crumb();
+    process.end();
+    {
+        let mut running = lock();
+        sweep(&running);
+        running.remove(&process.id());
+    }
+    Ok(Attempt { ended: ended?, crumb, printed: read_printed(&mut printed) })
+}
+
+fn lock() -> std::sync::MutexGuard<'static, BTreeSet<u32>> {
+    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits until the worker's byte can be read ([`Ended::Silent`] until it has been), it is gone, or time is up.
+fn waited(process: &Process, pipe: i32, timeout: Duration, stop: &AtomicBool) -> io::Result<Ended> {
+    let end = Instant::now() + timeout;
+    loop {
+        let left = end.saturating_duration_since(Instant::now());
+        match process.wait_for(pipe, left.min(LOOK))? {
+            Event::Readable | Event::Ended => return Ok(Ended::Silent),
+            Event::Deadline if stop.load(Ordering::Relaxed) => return Ok(Ended::Interrupted),
+            Event::Deadline if left.is_zero() => return Ok(Ended::TimedOut),
+            Event::Deadline => {}
+        }
+    }
+}
+
+fn answered(slate: &Slate) -> Ended {
+    match serde_json::from_slice::<Answer>(&slate.answer()) {
+        Ok(answer) => Ended::Answered(Box::new(answer)),
+        Err(_) => Ended::Silent,
+    }
+}
+
+fn memory_file() -> io::Result<File> {
+    // SAFETY: the name is closed by a NUL; the call touches no other memory.
+    let descriptor = unsafe { libc::memfd_create(c"wearlaw-printed".as_ptr(), libc::MFD_CLOEXEC) };
+    if descriptor < 0 {
+        return Err(io::Error::last_os_error());
+    }
+    // SAFETY: the descriptor was just made and belongs to nobody else.
+    Ok(unsafe { File::from_raw_fd(descriptor) })
+}
+
+fn read_printed(file: &mut File) -> String {
+    let mut bytes = Vec::new();
+    let length = file.metadata().map_or(0, |metadata| metadata.len());
+    let start = SeekFrom::Start(length.saturating_sub(PRINTED));
+    // What cannot be read was not worth more than a hint.
+    let _ = file.seek(start).and_then(|_| file.take(PRINTED).read_to_end(&mut bytes));
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Ends what a crashed worker left behind: it has become a child of this process, as the next subreaper, and still
+/// carries the mark of a worker.
+fn sweep(running: &BTreeSet<u32>) {
+    for _ in 0..16 {
+        let left: Vec<libc::pid_t> = children().into_iter().filter(|child| is_left_behind(*child, running)).collect();
+        if left.is_empty() {
+            return;
+        }
+        for child in left {
+            // Stopped first, so that it starts nothing more meanwhile.
+            signal(child, libc::SIGSTOP);
+            descendants(child).into_iter().for_each(|process| signal(process, libc::SIGKILL));
+            signal(child, libc::SIGKILL);
+            // SAFETY: a null pointer means that the status is not wanted; the child was just killed.
+            unsafe { libc::waitpid(child, std::ptr::null_mut(), 0) };
+        }
+    }
+}
+
+fn is_left_behind(child: libc::pid_t, running: &BTreeSet<u32>) -> bool {
+    let known = u32::try_from(child).is_ok_and(|child| running.contains(&child));
+    let environment = std::fs::read(format!("/proc/{child}/environ")).unwrap_or_default();
+    let marked = environment.split(|byte| *byte == 0).any(|pair| pair.starts_with(MARK.as_bytes()));
+    // A program that was started without any environment has no mark; one that has ended has none to show either.
+    let bare = environment.is_empty() && !is_zombie(child);
+    !known && (marked || bare)
+}
+
+fn is_zombie(process: libc::pid_t) -> bool {
+    let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
+    stat.rsplit(") ").next().is_none_or(|rest| rest.is_empty() || rest.starts_with('Z'))
+}
+
+fn children() -> Vec<libc::pid_t> {
+    let own = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
+    own.flat_map(|thread| {
+        let text = std::fs::read_to_string(thread.path().join("children")).unwrap_or_default();
+        text.split_whitespace().filter_map(|child| child.parse().ok()).collect::<Vec<libc::pid_t>>()
+    })
+    .collect()
+}
+
+/// What kind of fault an ending is: the check that is named after it, and the words of a report.
+pub(super) fn fault(attempt: &Attempt, timeout: Duration) -> Option<(Check, String)> {
+    let printed = &attempt.printed;
+    match &attempt.ended {
+        Ended::Answered(_) | Ended::Interrupted => None,
+        Ended::TimedOut => {
+            Some((Check::FaultsHang, format!("it did not come back within {} s", timeout.as_secs_f64())))
+        }
+        Ended::Silent => {
+            Some((Check::FaultsExit, "it closed the checker's channel, or wrote over its memory".to_owned()))
+        }
+        Ended::Gone(status) => Some(match (status.signal(), status.code()) {
+            (Some(libc::SIGABRT), _) if thrown(printed) => {
+                (Check::FaultsException, "an exception or a panic got out of it (SIGABRT)".to_owned())
+            }
+            (Some(libc::SIGABRT), _) => (Check::FaultsAbort, "it called abort (SIGABRT)".to_owned()),
+            (Some(_), _) if attempt.crumb.touched == super::slate::Touched::Stack => {
+                (Check::FaultsStack, "it overflowed the stack".to_owned())
+            }
+            (Some(number), _) => {
+                let name = crate::law::isolate::process::signal_name(number);
+                (Check::FaultsSignal, format!("it ended by {name}"))
+            }
+            (None, code) => {
+                let code = code.unwrap_or_default();
+                (Check::FaultsExit, format!("it ended the program with exit code {code}"))
+            }
+        }),
+    }
+}
+
+/// Whether the last words are those of a language's runtime that found nobody to catch what was thrown.
+fn thrown(printed: &str) -> bool {
+    let words = [
+        "terminate called",
+        "terminating due to uncaught exception",
+        "terminating with uncaught",
+        "cannot catch foreign exceptions",
+        "panicked at",
+        "in a function that cannot unwind",
+    ];
+    words.iter().any(|words| printed.contains(words))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_process_of_somebody_else_is_not_taken_for_one_that_was_left_behind() {
+        let mut other = std::process::Command::new("sleep").arg("20").spawn().expect("sleep is everywhere");
+        let id = other.id() as libc::pid_t;
+        assert!(!is_left_behind(id, &BTreeSet::new()));
+        other.kill().and_then(|()| other.wait()).expect("it is a child of this process");
+    }
+
+    #[test]
+    fn a_marked_process_is_one_unless_it_runs_for_a_check() {
+        let mut marked = std::process::Command::new("sleep").arg("20").env(MARK, "1").spawn().expect("sleep is there");
+        let id = marked.id();
+        // Between fork and exec it has this process's own environment.
+        let patience = Instant::now() + Duration::from_secs(5);
+        while !is_left_behind(id as libc::pid_t, &BTreeSet::new()) && Instant::now() < patience {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert!(is_left_behind(id as libc::pid_t, &BTreeSet::new()));
+        assert!(!is_left_behind(id as libc::pid_t, &BTreeSet::from([id])));
+        marked.kill().and_then(|()| marked.wait()).expect("it is a child of this process");
+    }
+
+    #[test]
+    fn runtimes_say_when_something_was_thrown() {
+        assert!(thrown("terminate called after throwing an instance of 'std::domain_error'"));
+        assert!(thrown("thread 'main' panicked at src/lib.rs:3:5:"));
+        assert!(!thrown("no such table"));
+    }
+}

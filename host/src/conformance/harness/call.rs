@@ -1,0 +1,462 @@
+//! One call of a law: a case laid out in columns, with arrays for the answers.
+#![allow(unsafe_code)] // reason: fills arrays that a law gets as raw pointers, and reads what it left there.
+
+use std::ffi::c_char;
+
+use wearlaw_plugin_api::abi;
+
+use super::arrays::{Arrays, Room};
+use super::points::Case;
+use super::subject::Instance;
+use crate::law::batch::{blank_view, column_of, index_column_of};
+use crate::law::fields::Shape;
+use crate::law::{Field, Fields, LawDescriptor, OutputItem};
+
+/// How the values of a column lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Spread {
+    /// One after the other.
+    PerPoint,
+    /// One for all.
+    Uniform,
+    /// With so many times the room of one between them.
+    Strided(usize),
+}
+
+/// Which fields are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Given {
+    /// All, also those that the law does not declare: then only one check finds a law that reads them.
+    All,
+    /// What the law reads or uses, as a host does it.
+    Declared,
+}
+
+/// Which outputs are asked for beside the increment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Asked {
+    pub(crate) direction: bool,
+    pub(crate) state: bool,
+    pub(crate) d_pressure: bool,
+    pub(crate) status: bool,
+}
+
+impl Asked {
+    /// The increment alone.
+    pub(crate) const NOTHING: Self = Self { direction: false, state: false, d_pressure: false, status: false };
+
+    /// Everything that the law can write, without statuses.
+    pub(crate) fn values(law: &LawDescriptor) -> Self {
+        Self {
+            direction: law.writes(OutputItem::Direction),
+            state: !law.state.is_empty(),
+            d_pressure: law.writes(OutputItem::DPressure),
+            status: false,
+        }
+    }
+
+    /// Every way of asking that hosts use: with and without derivative, with and without statuses.
+    pub(crate) fn ways(law: &LawDescriptor) -> Vec<Self> {
+        let all = Self::values(law);
+        let mut ways = vec![all, Self { status: true, ..all }];
+        if all.d_pressure {
+            ways.push(Self { d_pressure: false, ..all });
+        }
+        ways
+    }
+}
+
+/// How a case is laid out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Layout {
+    pub(crate) given: Given,
+    pub(crate) asked: Asked,
+    pub(crate) room: Room,
+    /// Inputs cannot be written; needs a room with guards.
+    pub(crate) sealed: bool,
+    /// The state at the start cannot be written either.
+    pub(crate) state_sealed: bool,
+    /// Fields that are not given, whatever `given` says.
+    pub(crate) absent: Fields,
+    /// Fields that are given once for all points.
+    pub(crate) uniform: Fields,
+    pub(crate) inputs: Spread,
+    /// How the other fields, and the state, lie.
+    pub(crate) fields: Spread,
+    pub(crate) constants: Spread,
+    /// Doubles by which every array of doubles is moved away from an even address.
+    pub(crate) skew: usize,
+    /// Bytes of the buffer for a text; none: NULL.
+    pub(crate) text: Option<usize>,
+    /// What the outputs hold before the call.
+    pub(crate) filling: u64,
+}
+
+impl Layout {
+    /// Columns per point, constants given once, room all around, every value that the law can write.
+    pub(crate) fn plain(law: &LawDescriptor) -> Self {
+        Self {
+            given: Given::All,
+            asked: Asked::values(law),
+            room: Room::Plain,
+            sealed: false,
+            state_sealed: false,
+            absent: Fields::EMPTY,
+            uniform: Fields::EMPTY,
+            inputs: Spread::PerPoint,
+            fields: Spread::PerPoint,
+            constants: Spread::Uniform,
+            skew: 0,
+            text: None,
+            filling: 0,
+        }
+    }
+}
+
+/// More points than this, and fields that the law does not declare are given once for all.
+const MANY: usize = 4096;
+/// What lies between the values of a column: a law that takes it for a value gives a NaN.
+const BETWEEN: f64 = f64::NAN;
+
+/// A call, ready to be made.
+pub(crate) struct Call {
+    case: Case,
+    law: LawDescriptor,
+    layout: Layout,
+    _arrays: Arrays,
+    view: *mut abi::View,
+    output: *mut abi::Output,
+    outputs: Outputs,
+}
+
+/// Where the arrays of the outputs are, whatever the law does to the struct that says so.
+#[derive(Clone, Copy)]
+struct Outputs {
+    increment: *mut f64,
+    direction: *mut f64,
+    state: *mut f64,
+    d_pressure: *mut f64,
+    status: *mut i32,
+    text: *mut u8,
+}
+
+/// What a call came to.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Answers {
+    pub(crate) status: i32,
+    pub(crate) first_bad: i64,
+    pub(crate) dt_factor: f64,
+    pub(crate) missing: i64,
+    pub(crate) increment: Vec<f64>,
+    /// Three a point, or empty.
+    pub(crate) direction: Vec<f64>,
+    /// All variables of a point, point by point, or empty.
+    pub(crate) state: Vec<f64>,
+    pub(crate) d_pressure: Vec<f64>,
+    pub(crate) point_status: Vec<i32>,
+    pub(crate) text: Vec<u8>,
+}
+
+impl Answers {
+    /// True if the values are meant to be used.
+    pub(crate) fn is_good(&self) -> bool {
+        good(self.status)
+    }
+}
+
+/// True for a status whose values are meant to be used.
+pub(crate) fn good(status: i32) -> bool {
+    status == abi::WL_OK || status == abi::WL_UNRELIABLE
+}
+
+impl Call {
+    /// Lays a case out.
+    pub(crate) fn new(law: &LawDescriptor, case: &Case, layout: &Layout) -> Self {
+        let mut arrays = Arrays::new(layout.room, 8 * layout.skew);
+        let mut view = blank_view(&case.numbers, case.count, law);
+        for field in Field::ALL.iter().copied().filter(|field| is_given(law, *field, layout)) {
+            lay_field(&mut arrays, &mut view, law, case, layout, field);
+        }
+        let constants: Vec<_> = (0..law.constants.len())
+            .map(|index| {
+                let name = &law.constants[index].name;
+                lay(&mut arrays, name, case, layout.constants, 1, |case, point, _| case.constants(point)[index])
+            })
+            .collect();
+        let inputs: Vec<_> = (0..law.inputs.len())
+            .map(|index| {
+                let name = &law.inputs[index].name;
+                lay(&mut arrays, name, case, layout.inputs, 1, |case, point, _| case.point(point).inputs[index])
+            })
+            .collect();
+        view.constants = columns(&mut arrays, "the columns of the constants", &constants);
+        view.inputs = columns(&mut arrays, "the columns of the inputs", &inputs);
+        if !law.state.is_empty() {
+            view.state = lay_state(&mut arrays, case, layout, law.state.len());
+        }
+        let outputs = Outputs::place(&mut arrays, law, case.count, layout);
+        view.request = bits(&layout.asked);
+        let output = abi::Output {
+            struct_size: size_of::<abi::Output>() as i64,
+            increment: outputs.increment,
+            direction: outputs.direction,
+            state: outputs.state,
+            status: outputs.status,
+            first_bad: -1,
+            dt_factor: 0.0,
+            missing: 0,
+            text: outputs.text.cast::<c_char>(),
+            text_size: layout.text.unwrap_or(0) as i64,
+            d_pressure: outputs.d_pressure,
+        };
+        let view = put(&mut arrays, "the view", view, true);
+        let output = put(&mut arrays, "the output", output, false);
+        if layout.sealed || layout.state_sealed {
+            arrays.seal();
+        }
+        Self { case: case.clone(), law: law.clone(), layout: *layout, _arrays: arrays, view, output, outputs }
+    }
+
+    /// Notes the inputs on the slate and calls the law.
+    pub(crate) fn evaluate(&mut self, instance: &Instance<'_>) -> i32 {
+        let slate = instance.law.library.slate;
+        let number = slate.count_call(self.case.count);
+        slate.input(lines(&self.case, &self.law).as_bytes());
+        if narrowed(number) && self.case.count > 1 {
+            slate.single_point();
+            for point in 0..self.case.count.min(MANY) {
+                let single = self.case.single(point);
+                let mut call = Call::new(&self.law, &single, &self.layout);
+                slate.input(lines(&single, &self.law).as_bytes());
+                call.repeat(instance);
+            }
+            slate.input(lines(&self.case, &self.law).as_bytes());
+        }
+        self.repeat(instance)
+    }
+
+    /// Calls the law again without a note: for loops.
+    pub(crate) fn repeat(&mut self, instance: &Instance<'_>) -> i32 {
+        // SAFETY: `new` filled view and output as the ABI says; the arrays live as long as `self`.
+        unsafe {
+            ((*self.output).first_bad, (*self.output).dt_factor, (*self.output).missing) = (-1, 0.0, 0);
+            instance.evaluate(self.view, self.output)
+        }
+    }
+
+    /// Calls the law and reads its answers.
+    pub(crate) fn answers(&mut self, instance: &Instance<'_>) -> Answers {
+        let status = self.evaluate(instance);
+        self.read(status)
+    }
+
+    /// Reads the answers of the last call, which came to `status`.
+    pub(crate) fn read(&self, status: i32) -> Answers {
+        // SAFETY: the struct lives as long as `self`, and any bits are values of its numbers.
+        self.read_from(status, &unsafe { *self.output })
+    }
+
+    /// As [`Call::read`], for a call that was made with another struct over the same arrays.
+    pub(crate) fn read_from(&self, status: i32, output: &abi::Output) -> Answers {
+        let (count, variables) = (self.case.count, self.law.state.len());
+        let place = &self.outputs;
+        Answers {
+            status,
+            first_bad: output.first_bad,
+            dt_factor: output.dt_factor,
+            missing: output.missing,
+            increment: numbers(place.increment, count),
+            direction: numbers(place.direction, 3 * count),
+            state: numbers(place.state, variables * count),
+            d_pressure: numbers(place.d_pressure, count),
+            point_status: numbers(place.status, count),
+            text: numbers(place.text, self.layout.text.unwrap_or(0)),
+        }
+    }
+
+    /// The view, for a copy of it.
+    pub(crate) fn view(&self) -> *const abi::View {
+        self.view
+    }
+
+    /// The output, for a copy of it.
+    pub(crate) fn output(&self) -> *const abi::Output {
+        self.output
+    }
+
+    /// The values of the state at the start as they are now.
+    pub(crate) fn state_at_start(&self) -> Vec<f64> {
+        // SAFETY: the view lives as long as `self`; a law that changed its pointer wrote what another check finds.
+        let column = unsafe { (*self.view).state };
+        let variables = self.law.state.len();
+        if variables == 0 || column.step != variables as i64 {
+            return Vec::new();
+        }
+        numbers(column.ptr.cast_mut(), variables * self.case.count)
+    }
+}
+
+/// Number of the call that is made point by point first; 0: none.
+static NARROW: std::sync::atomic::AtomicU64 = std::sync::atomic::AtomicU64::new(0);
+
+/// Makes the call of this number point by point first.
+pub(crate) fn narrow(call: Option<u64>) {
+    NARROW.store(call.unwrap_or(0), std::sync::atomic::Ordering::Relaxed);
+}
+
+fn narrowed(number: u64) -> bool {
+    NARROW.load(std::sync::atomic::Ordering::Relaxed) == number
+}
+
+fn lines(case: &Case, law: &LawDescriptor) -> String {
+    case.named(law, 0).iter().fold(String::new(), |text, (name, value)| text + name + "\t" + value + "\n")
+}
+
+fn is_given(law: &LawDescriptor, field: Field, layout: &Layout) -> bool {
+    if layout.absent.contains(field) {
+        return false;
+    }
+    match layout.given {
+        Given::All => true,
+        Given::Declared => law.fields().contains(field),
+    }
+}
+
+fn lay_field(
+    arrays: &mut Arrays,
+    view: &mut abi::View,
+    law: &LawDescriptor,
+    case: &Case,
+    layout: &Layout,
+    field: Field,
+) {
+    let many = case.count > MANY && !law.fields().contains(field);
+    let spread = if layout.uniform.contains(field) || many { Spread::Uniform } else { layout.fields };
+    if field.shape() == Shape::Index {
+        let column = lay(arrays, field.name(), case, spread, 1, |case, point, _| {
+            // The bits of the integer, as the array has room for words.
+            f64::from_bits(case.point(point).index(field).cast_unsigned())
+        });
+        if let Some(place) = index_column_of(view, field) {
+            *place = abi::IndexColumn { ptr: column.ptr.cast(), step: column.step };
+        }
+    } else if let Some(place) = column_of(view, field) {
+        let width = field.shape().width();
+        *place = lay(arrays, field.name(), case, spread, width, |case, point, component| {
+            case.point(point).real(field)[component]
+        });
+    }
+}
+
+fn lay_state(arrays: &mut Arrays, case: &Case, layout: &Layout, variables: usize) -> abi::Column {
+    let value = |case: &Case, point: usize, variable: usize| case.point(point).state[variable];
+    let spread = if layout.fields == Spread::Uniform { Spread::PerPoint } else { layout.fields };
+    lay_sealed(arrays, "state (start)", case, spread, variables, layout.state_sealed, value)
+}
+
+fn lay(
+    arrays: &mut Arrays,
+    name: &str,
+    case: &Case,
+    spread: Spread,
+    width: usize,
+    value: impl Fn(&Case, usize, usize) -> f64,
+) -> abi::Column {
+    lay_sealed(arrays, name, case, spread, width, true, value)
+}
+
+fn lay_sealed(
+    arrays: &mut Arrays,
+    name: &str,
+    case: &Case,
+    spread: Spread,
+    width: usize,
+    read_only: bool,
+    value: impl Fn(&Case, usize, usize) -> f64,
+) -> abi::Column {
+    let (step, rows) = match spread {
+        Spread::PerPoint => (width, case.count),
+        Spread::Uniform => (0, case.count.min(1)),
+        Spread::Strided(times) => (times * width, case.count),
+    };
+    let length = if rows == 0 { 0 } else { (rows - 1) * step + width };
+    let first = arrays.place(name, 8 * length, read_only).cast::<f64>();
+    // SAFETY: the array was just made with room for `length` doubles, and nothing else refers to it.
+    let array = unsafe { std::slice::from_raw_parts_mut(first, length) };
+    if step > width {
+        array.fill(BETWEEN);
+    }
+    for row in 0..rows {
+        for component in 0..width {
+            array[row * step + component] = value(case, row, component);
+        }
+    }
+    abi::Column { ptr: first, step: step as i64 }
+}
+
+fn columns(arrays: &mut Arrays, name: &str, columns: &[abi::Column]) -> *const abi::Column {
+    if columns.is_empty() {
+        return std::ptr::null();
+    }
+    let first = arrays.place(name, size_of_val(columns), true).cast::<abi::Column>();
+    // SAFETY: the array was just made with room for them.
+    unsafe { first.copy_from_nonoverlapping(columns.as_ptr(), columns.len()) };
+    first
+}
+
+fn put<T>(arrays: &mut Arrays, name: &str, value: T, read_only: bool) -> *mut T {
+    let place = arrays.place(name, size_of::<T>(), read_only).cast::<T>();
+    // SAFETY: the place was just made with room for the value; arrays begin or end at a page, and the sizes of the
+    // structs are multiples of their alignment.
+    unsafe { place.write(value) };
+    place
+}
+
+impl Outputs {
+    fn place(arrays: &mut Arrays, law: &LawDescriptor, count: usize, layout: &Layout) -> Self {
+        let filling = layout.filling;
+        let mut doubles = |name: &str, wanted: bool, length: usize| {
+            if !wanted {
+                return std::ptr::null_mut();
+            }
+            let first = arrays.place(name, 8 * length, false).cast::<u64>();
+            // SAFETY: the array was just made with room for `length` words.
+            unsafe { std::slice::from_raw_parts_mut(first, length) }.fill(filling);
+            first.cast::<f64>()
+        };
+        let asked = &layout.asked;
+        let (increment, direction) =
+            (doubles("increment", true, count), doubles("direction", asked.direction, 3 * count));
+        let state = doubles("state (end)", asked.state, law.state.len() * count);
+        let d_pressure = doubles("d_pressure", asked.d_pressure, count);
+        let mut status = std::ptr::null_mut();
+        if asked.status {
+            status = arrays.place("status", 4 * count, false).cast::<i32>();
+            // SAFETY: the array was just made with room for `count` integers.
+            unsafe { std::slice::from_raw_parts_mut(status, count) }.fill(filling as i32);
+        }
+        let mut text = std::ptr::null_mut();
+        if let Some(size) = layout.text {
+            text = arrays.place("the buffer for a text", size, false);
+            // SAFETY: the buffer was just made with room for `size` bytes.
+            unsafe { std::slice::from_raw_parts_mut(text, size) }.fill(filling as u8);
+        }
+        Self { increment, direction, state, d_pressure, status, text }
+    }
+}
+
+fn bits(asked: &Asked) -> i64 {
+    let bit = |set: bool, bit: i64| if set { bit } else { 0 };
+    bit(asked.direction, abi::WL_OUT_DIRECTION)
+        | bit(asked.state, abi::WL_OUT_STATE)
+        | bit(asked.d_pressure, abi::WL_OUT_D_PRESSURE)
+        | bit(asked.status, abi::WL_OUT_STATUS)
+}
+
+fn numbers<T: Copy>(first: *mut T, length: usize) -> Vec<T> {
+    if first.is_null() {
+        return Vec::new();
+    }
+    // SAFETY: `first` leads to an array of this call of that length, which the law has left.
+    unsafe { std::slice::from_raw_parts(first, length) }.to_vec()
+}

@@ -1,0 +1,65 @@
+//! Which checks are meant by the names on the command line.
+
+use super::check::{Check, Group};
+use super::error::ConformanceError;
+
+/// The checks that `names` stand for, all if there are none; `quick` leaves out those that take long.
+///
+/// A name is a check's (`values/finite`) or a group's (`values`); several may stand in one word, with commas.
+///
+/// # Errors
+/// A name that neither a check nor a group has.
+pub fn select(names: &[String], quick: bool) -> Result<Vec<Check>, ConformanceError> {
+    let mut wanted: Vec<Check> = Vec::new();
+    for name in names.iter().flat_map(|word| word.split(',')).map(str::trim).filter(|name| !name.is_empty()) {
+        let found: Vec<Check> = Check::ALL
+            .iter()
+            .copied()
+            .filter(|check| check.name() == name || check.facts().group.name() == name)
+            .collect();
+        if found.is_empty() {
+            return Err(ConformanceError::NoSuchCheck { name: name.to_owned(), nearest: nearest(name) });
+        }
+        wanted.extend(found);
+    }
+    let all = names.is_empty();
+    let selected = Check::ALL.iter().copied().filter(|check| all || wanted.contains(check));
+    Ok(selected.filter(|check| !quick || check.facts().quick).collect())
+}
+
+/// A name that differs by a slip of the fingers.
+pub(super) fn nearest(name: &str) -> Option<String> {
+    let groups = Group::ALL.iter().map(|group| group.name());
+    let names = Check::ALL.iter().map(|check| check.name()).chain(groups);
+    let distance = |known: &&str| strsim::damerau_levenshtein(name, known);
+    let found = names.min_by_key(distance)?;
+    (distance(&found) <= 1 + found.len() / 4).then(|| found.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(words: &[&str], quick: bool) -> Vec<&'static str> {
+        let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
+        select(&words, quick).unwrap().into_iter().map(Check::name).collect()
+    }
+
+    #[test]
+    fn names_and_groups_select_in_the_order_of_the_report() {
+        assert_eq!(names(&[], false).len(), Check::ALL.len());
+        assert_eq!(names(&["values/finite,load/opens"], false), ["load/opens", "values/finite"]);
+        assert_eq!(names(&["derivative", "derivative/kinks"], false).len(), 3);
+        let quick = names(&[], true);
+        assert!(quick.len() < Check::ALL.len() && !quick.contains(&"cost/per-point"));
+        assert!(names(&["cost"], true).is_empty());
+    }
+
+    #[test]
+    fn an_unknown_name_suggests_the_nearest() {
+        let error = select(&["values/finit".to_owned()], false).unwrap_err().to_string();
+        assert!(error.contains("`values/finit`") && error.contains("did you mean `values/finite`?"), "{error}");
+        let error = select(&["nonsense".to_owned()], false).unwrap_err().to_string();
+        assert!(error.contains("--list") && !error.contains("did you mean"), "{error}");
+    }
+}

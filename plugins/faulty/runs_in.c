@@ -1,0 +1,9 @@
+/*
+ * Rule broken: claimed: the increment is proportional to dt.
+ * The wear coefficient falls with the distance, so that one long substep wears more than two short ones.
+ */
+#define LAW_NAME "runs-in"
+#define RUN_IN (s > 0 ? s / (start[0] + s) : 0)
+#define INCREMENT (K / H * p * s * RUN_IN)
+#define SLOPE (K / H * s * RUN_IN)
+#include "sound_law.h"

@@ -1,0 +1,22 @@
+! Rule broken: no exit.
+! A pressure that is not a number below 1e200 stops the program.
+module stops_law
+  use wearlaw
+  implicit none
+  private
+  type(wl_about), parameter :: about = wl_about('stops', '1.0.0', 'wear proportional to pressure and slip', &
+    reads=WL_FIELD_PRESSURE + WL_FIELD_SLIP + WL_FIELD_NORMAL, writes=WL_OUT_D_PRESSURE + WL_OUT_DIRECTION, &
+    claims=WL_CLAIMS_KNOWN, pressure_degree=1.0_c_double)
+  include 'sound_quantities.inc'
+contains
+  integer(c_int32_t) function point(in, c, s, out) result(status)
+    type(wl_in), intent(in) :: in
+    real(c_double), intent(in) :: c(*)
+    real(c_double), intent(inout) :: s(*)
+    type(wl_out), intent(inout) :: out
+    if (.not. in%pressure < 1.0e200_c_double) stop 4
+    status = sound_point(in, c, s, out)
+  end function point
+  include 'sound_point.inc'
+  include 'wearlaw_point.inc'
+end module stops_law

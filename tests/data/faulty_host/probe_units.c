@@ -1,0 +1,63 @@
+/* probe_units.c: the same body in other base units wears the same. */
+#include "probe.h"
+
+/* Exponents of metre, kilogram, second and kelvin of the fields, in the order of their bits. */
+static const double dimensions[FIELDS][4] = {
+    {-1, 1, -2, 0}, {1, 0, 0, 0},   {1, 0, -1, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}, {1, 0, 0, 0},
+    {0, 0, 0, 0},   {0, 0, 0, 1},   {0, 0, 0, 1},  {-1, 1, -2, 0}, {0, 0, 0, 0}, {0, 1, -2, 0},
+    {1, 0, 0, 0},   {1, 0, 0, 0},   {-1, 1, -2, 0}, {1, 0, 0, 0}, {2, 0, 0, 0}};
+
+/* What a quantity's number is multiplied by if the units become so many SI units each. */
+static double factor(const double *exponents, const double *units) {
+    double f = 1;
+    for (int k = 0; k < 4; ++k) {
+        f *= pow(units[k], -exponents[k]);
+    }
+    return f;
+}
+
+static double factor_of(law_handle *h, int32_t kind, int64_t index, const double *units) {
+    wl_quantity q = {sizeof q};
+    h->law.describe(kind, index, &q);
+    return factor((double[]){q.metre, q.kilogram, q.second, q.kelvin}, units);
+}
+
+int probe_units(const char *name, const char *path) {
+    enum { POINTS = 50 };
+    static const double millimetres[4] = {1e-3, 1e3, 10, 2};
+    if (strcmp(name, "physics/units") != 0) {
+        return 0;
+    }
+    law_handle *h = open_law(path);
+    job *si = make_job(h, POINTS, 1);
+    for (int k = 0; k < 4; ++k) {
+        si->unit[k] = 1;
+    }
+    job *other = part_of(h, si, NULL, POINTS);
+    memcpy(other->unit, millimetres, sizeof other->unit);
+    other->dt /= millimetres[2];
+    other->time /= millimetres[2];
+    for (int f = 0; f < FIELDS; ++f) {
+        for (int64_t i = 0; other->field[f] && i < width_of(f) * POINTS; ++i) {
+            other->field[f][i] *= factor(dimensions[f], millimetres);
+        }
+    }
+    for (int64_t k = 0; k < h->constants; ++k) {
+        other->constant[k] = malloc(sizeof(double));
+        other->constant[k][0] = si->constant[k][0] * factor_of(h, WL_KIND_CONSTANT, k, millimetres);
+    }
+    for (int64_t k = 0; k < h->states; ++k) {
+        for (int64_t i = 0; i < POINTS; ++i) {
+            other->state[h->states * i + k] *= factor_of(h, WL_KIND_STATE, k, millimetres);
+        }
+    }
+    reply *r = evaluate(h, make_instance(h), si, all_outputs(h));
+    reply *s = evaluate(h, make_instance(h), other, all_outputs(h));
+    for (int64_t i = 0; i < POINTS; ++i) {
+        double expected = r->increment[i] * factor((double[]){1, 0, 0, 0}, millimetres);
+        if (fabs(s->increment[i] - expected) > 1e-9 * fabs(expected)) {
+            bad("in other units the wear is %g times what it should be", s->increment[i] / expected);
+        }
+    }
+    return 1;
+}
