@@ -12,6 +12,7 @@ mod error;
 mod fields;
 mod inputs;
 mod kinematics;
+mod moment_batch;
 mod prescribed;
 mod progress;
 mod reference;
