@@ -1,31 +1,29 @@
-//! What a law is given at one moment of a piece: every field it declared, and nothing else.
+//! What drives the points over one piece: pressure, motion and whatever else the scene gives, at any moment of it.
 
 use std::ops::Range;
 
 use crate::contact::prescribed::{Column, History, Motion};
-use crate::law::{Batch, BatchError, CallNumbers, Field, Indices, Values};
+use crate::law::{Field, Values};
 use crate::plan::{Linear, Plan};
 use crate::scene::Basis;
-use crate::solve::kinematics::{ALONG, UP, contact_state, normal_at, path, speed_of, speeds, tangent};
+use crate::solve::kinematics::{UP, normal_at, path, speeds};
 use crate::solve::schedule::Piece;
-use crate::solve::site::{Moment, Remembered, Rooms, Site};
-use crate::solve::source::{Rate, Source, map, value, vector, vectors, zip};
-use crate::solve::sweeps::no_sign;
+use crate::solve::source::{Rate, Source, value, vectors, zip};
 
 /// Everything that drives the points over one piece.
 pub(super) struct Drive<'h> {
     pub(super) pressure: Source<'h>,
     pub(super) velocity: Source<'h>,
-    slip: [Rate<'h>; 3],
+    pub(super) slip: [Rate<'h>; 3],
     pub(super) temperature: Source<'h>,
     pub(super) shear: Source<'h>,
-    friction: Source<'h>,
+    pub(super) friction: Source<'h>,
     normal: [Source<'h>; 3],
     stress: [Source<'h>; 6],
     area: Source<'h>,
-    coordinates: [Source<'h>; 3],
-    inputs: Vec<Source<'h>>,
-    motion: Motion,
+    pub(super) coordinates: [Source<'h>; 3],
+    pub(super) inputs: Vec<Source<'h>>,
+    pub(super) motion: Motion,
 }
 
 impl<'h> Drive<'h> {
@@ -128,7 +126,7 @@ impl<'h> Drive<'h> {
     }
 
     /// max(0, -n.sigma.n) with the stress positive in tension.
-    fn traction<'b>(
+    pub(super) fn traction<'b>(
         &self,
         part: f64,
         range: Range<usize>,
@@ -228,173 +226,5 @@ impl<'h> Drive<'h> {
                 Values::PerPoint(room)
             }
         }
-    }
-
-    /// The batch of the points of `range` at a moment, handed to `call` together with the pressure and the normals.
-    pub(super) fn with_batch<T, E: From<BatchError>>(
-        &self,
-        site: &Site<'_>,
-        moment: &Moment,
-        range: Range<usize>,
-        remembered: Remembered<'_>,
-        rooms: &mut Rooms,
-        call: impl FnOnce(&Batch<'_>, &Values<'_>, &Values<'_>) -> Result<T, E>,
-    ) -> Result<T, E> {
-        let Site { plan, law, piece, .. } = *site;
-        let (points, part, dt) = (range.len(), moment.at, moment.dt);
-        let fields = plan.fields;
-        let wants = |field: Field| fields.contains(field);
-        let any = |list: &[Field]| list.iter().any(|field| fields.contains(*field));
-        let length = piece.end - piece.start;
-        let start = piece.start + moment.from * length;
-        let mut builder = Batch::builder(law, points).numbers(CallNumbers {
-            dimension: i64::from(plan.dimension),
-            time: start,
-            dt,
-            step_time: start - piece.placed.start,
-            load_step: piece.placed.number,
-            substep: piece.substep,
-            cycle: piece.placed.cycle,
-            material: plan.material.number,
-            reference_temperature: plan.units.reference_temperature.unwrap_or(0.0),
-            absolute_zero: plan.units.absolute_zero(),
-            units: plan.sizes,
-            ..CallNumbers::default()
-        });
-        let pressure = self.driving_pressure(plan, part, range.clone(), (&mut rooms.pressure, &mut rooms.parts));
-        let normals = self.normals(part, range.clone(), &mut rooms.normal, &mut rooms.parts);
-        if wants(Field::NodalTraction) {
-            builder = builder
-                .field(Field::NodalTraction, self.traction(part, range.clone(), &mut rooms.traction, &mut rooms.parts));
-        }
-        let temperature = if plan.temperature {
-            self.temperature.at(part, range.clone(), &mut rooms.temperature)
-        } else {
-            Values::Absent
-        };
-        let constants = plan.material.constants.at(
-            start + (part - moment.from) * length,
-            &temperature,
-            points,
-            &mut rooms.constants,
-        );
-        builder =
-            builder.constant_values(&constants).field(Field::Pressure, pressure).field(Field::Temperature, temperature);
-        if wants(Field::Normal) {
-            builder = builder.field(Field::Normal, normals);
-        }
-        let directed = any(&[Field::Tangent, Field::SlipVector, Field::FrictionStress]);
-        let tangents = match normals {
-            _ if !directed => Values::Absent,
-            Values::UniformVector(_) => Values::UniformVector(ALONG),
-            _ => vectors(points, &mut rooms.tangent, |i| tangent(vector(&normals, i))),
-        };
-        if wants(Field::Tangent) {
-            builder = builder.field(Field::Tangent, tangents);
-        }
-        let [u, v, w] = &mut rooms.velocity;
-        let velocity = match self.motion {
-            Motion::None => [Values::Uniform(0.0); 3],
-            Motion::Velocity => [self.velocity.at(part, range.clone(), u), Values::Uniform(0.0), Values::Uniform(0.0)],
-            Motion::Slip => [self.slip[0].at(range.clone(), u), Values::Uniform(0.0), Values::Uniform(0.0)],
-            Motion::SlipVector => [
-                self.slip[0].at(range.clone(), u),
-                self.slip[1].at(range.clone(), v),
-                self.slip[2].at(range.clone(), w),
-            ],
-        };
-        let moves =
-            any(&[Field::Velocity, Field::Slip, Field::FrictionWork, Field::FrictionStress, Field::ContactState]);
-        let speed = match self.motion {
-            _ if !moves => Values::Absent,
-            Motion::SlipVector => speed_of(&velocity, points, &mut rooms.speed),
-            _ => match velocity[0] {
-                Values::PerPoint(all) if no_sign(all) => velocity[0],
-                _ => map(&velocity[0], &mut rooms.speed, f64::abs),
-            },
-        };
-        builder = builder.field(Field::Velocity, speed);
-        let slip = if any(&[Field::Slip, Field::FrictionWork]) {
-            let exact = moment.at != moment.from && self.motion == Motion::Velocity && !self.velocity.is_constant();
-            let to = moment.from + if length > 0.0 { dt / length } else { 0.0 };
-            match site.whole && exact {
-                true => self.paths((moment.from, to), length, range.clone(), &mut rooms.slip, &mut rooms.parts),
-                false => map(&speed, &mut rooms.slip, |speed| speed * dt),
-            }
-        } else {
-            Values::Absent
-        };
-        builder = builder.field(Field::Slip, slip);
-        let moved = |i: usize| match self.motion {
-            Motion::SlipVector => [0, 1, 2].map(|k| value(&velocity[k], i)),
-            _ => vector(&tangents, i).map(|along| along * value(&velocity[0], i)),
-        };
-        if wants(Field::SlipVector) {
-            let vectors = vectors(points, &mut rooms.slip_vector, |i| moved(i).map(|v| v * dt));
-            builder = builder.field(Field::SlipVector, vectors);
-        }
-        if any(&[Field::FrictionWork, Field::FrictionStress, Field::FrictionCoefficient]) {
-            let friction = self.friction.at(part, range.clone(), &mut rooms.coefficient);
-            let shear = match self.shear.is_absent() {
-                false => self.shear.at(part, range.clone(), &mut rooms.shear),
-                true => zip(&friction, &pressure, points, &mut rooms.shear, |mu, p| mu * p.max(0.0)),
-            };
-            if wants(Field::FrictionWork) {
-                let work = zip(&shear, &slip, points, &mut rooms.work, |shear, slip| shear.abs() * slip);
-                builder = builder.field(Field::FrictionWork, work);
-            }
-            if wants(Field::FrictionStress) {
-                let given = !self.shear.is_absent();
-                let stress = vectors(points, &mut rooms.stress, |i| match (given, value(&speed, i)) {
-                    (true, _) => vector(&tangents, i).map(|along| along * value(&shear, i)),
-                    (false, 0.0) => [0.0; 3],
-                    // Friction on the worn body opposes its own motion.
-                    (false, speed) => moved(i).map(|v| -value(&shear, i) * v / speed),
-                });
-                builder = builder.field(Field::FrictionStress, stress);
-            }
-            builder = builder.field(Field::FrictionCoefficient, friction);
-        }
-        if wants(Field::Area) {
-            builder = builder.field(Field::Area, self.area.at(part, range.clone(), &mut rooms.area));
-        }
-        if wants(Field::Coordinates) {
-            let [x, y, z, ..] = &mut rooms.parts;
-            let c = [
-                self.coordinates[0].at(part, range.clone(), x),
-                self.coordinates[1].at(part, range.clone(), y),
-                self.coordinates[2].at(part, range.clone(), z),
-            ];
-            let coordinates = vectors(points, &mut rooms.coordinates, |i| [0, 1, 2].map(|k| value(&c[k], i)));
-            builder = builder.field(Field::Coordinates, coordinates);
-        }
-        if wants(Field::ContactState) {
-            rooms.contact.clear();
-            rooms.contact.extend((0..points).map(|i| contact_state(value(&pressure, i), value(&speed, i))));
-            builder = builder.indices(Field::ContactState, Indices::PerPoint(&rooms.contact));
-        }
-        if wants(Field::PointId) {
-            rooms.ids.clear();
-            rooms.ids.extend(range.clone().map(|i| site.id(i)));
-            builder = builder.indices(Field::PointId, Indices::PerPoint(&rooms.ids));
-        }
-        if wants(Field::AccumulatedWear) {
-            builder = builder.field(Field::AccumulatedWear, Values::PerPoint(remembered.wear));
-        }
-        if wants(Field::AccumulatedSlip) {
-            builder = builder.field(Field::AccumulatedSlip, remembered.distance);
-        }
-        if !law.state.is_empty() {
-            builder = builder.state(Values::PerPoint(remembered.state));
-        }
-        rooms.inputs.resize_with(self.inputs.len(), Vec::new);
-        let inputs: Vec<Values<'_>> = self
-            .inputs
-            .iter()
-            .zip(&mut rooms.inputs)
-            .map(|(source, room)| source.at(part, range.clone(), room))
-            .collect();
-        let batch = builder.inputs(&inputs).build()?;
-        call(&batch, &pressure, &normals)
     }
 }

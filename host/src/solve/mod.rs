@@ -14,6 +14,7 @@ mod fields;
 mod inputs;
 mod kinematics;
 mod ladder;
+mod moment_batch;
 mod prescribed;
 mod progress;
 mod reference;
