@@ -14,6 +14,10 @@ use super::symbol::Quarter;
 
 /// Columns in a strip: two lines of cache in each row.
 const STRIP: usize = 8;
+/// Rows that go into the strips and come out of them together.
+const BLOCK: usize = 4;
+/// Numbers between columns.
+const APART: usize = 4;
 const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 
 /// Memory that one thread works in.
@@ -91,8 +95,8 @@ impl Convolution {
         let scratch = scratch.max(backward_column.get_inplace_scratch_len());
         let bench = Bench {
             row: vec![0.0; padded[0]],
-            bins: vec![ZERO; strips * STRIP],
-            columns: vec![ZERO; STRIP * padded[1]],
+            bins: vec![ZERO; BLOCK * strips * STRIP],
+            columns: vec![ZERO; STRIP * (padded[1] + APART)],
             scratch: vec![ZERO; scratch],
         };
         let benches = if threads > 1 { 2 * threads } else { 1 };
@@ -128,20 +132,26 @@ impl Convolution {
         let groups = self.benches.len().min(ny);
         let group = ny.div_ceil(groups);
         let forward = &self.forward;
+        let wide = in_strips(bins);
         each(&mut self.benches, split_rows(&mut self.spectrum, apart, ny, group), |bench, index, mut strips| {
-            for (place, row) in (index * group..ny.min((index + 1) * group)).enumerate() {
-                bench.row.fill(0.0);
-                let any = rows.read(row, &mut bench.row[..nx]);
-                if any {
-                    done(forward.process_with_scratch(
-                        &mut bench.row,
-                        &mut bench.bins[..bins],
-                        &mut bench.scratch[..forward.get_scratch_len()],
-                    ));
+            let (begin, end) = (index * group, ny.min((index + 1) * group));
+            for block in (begin..end).step_by(BLOCK) {
+                let block = block..end.min(block + BLOCK);
+                for (row, spectrum) in block.clone().zip(bench.bins.chunks_exact_mut(wide)) {
+                    bench.row.fill(0.0);
+                    if rows.read(row, &mut bench.row[..nx]) {
+                        let scratch = &mut bench.scratch[..forward.get_scratch_len()];
+                        done(forward.process_with_scratch(&mut bench.row, &mut spectrum[..bins], scratch));
+                    } else {
+                        spectrum.fill(ZERO);
+                    }
                 }
-                for (strip, from) in strips.iter_mut().zip(bench.bins.chunks_exact(STRIP)) {
-                    let to = &mut strip[place * STRIP..][..STRIP];
-                    if any { to.copy_from_slice(from) } else { to.fill(ZERO) }
+                let place = STRIP * (block.start - begin);
+                for (strip, data) in strips.iter_mut().enumerate() {
+                    let to = &mut data[place..][..STRIP * block.len()];
+                    for (to, from) in to.chunks_exact_mut(STRIP).zip(bench.bins.chunks_exact(wide)) {
+                        to.copy_from_slice(&from[strip * STRIP..][..STRIP]);
+                    }
                 }
             }
         });
@@ -174,29 +184,42 @@ impl Convolution {
         }
         let strips = split_rows(&mut self.spectrum, apart, ny, group);
         each(&mut self.benches, strips.into_iter().zip(outs).collect(), |bench, index, (strips, out)| {
-            let first = rows.start((index * group).min(ny));
-            for (place, row) in (index * group..ny.min((index + 1) * group)).enumerate() {
-                let (begin, end) = (rows.start(row) - first, rows.start(row + 1) - first);
-                if begin == end {
+            let (begin, end) = ((index * group).min(ny), ny.min((index + 1) * group));
+            let first = rows.start(begin);
+            for block in (begin..end).step_by(BLOCK) {
+                let block = block..end.min(block + BLOCK);
+                if rows.start(block.start) == rows.start(block.end) {
                     continue;
                 }
-                for (strip, to) in strips.iter().zip(bench.bins.chunks_exact_mut(STRIP)) {
-                    to.copy_from_slice(&strip[place * STRIP..][..STRIP]);
+                let place = STRIP * (block.start - begin);
+                for (strip, data) in strips.iter().enumerate() {
+                    let from = &data[place..][..STRIP * block.len()];
+                    for (from, to) in from.chunks_exact(STRIP).zip(bench.bins.chunks_exact_mut(wide)) {
+                        to[strip * STRIP..][..STRIP].copy_from_slice(from);
+                    }
                 }
-                // What rounding left of the imaginary parts of bins that are real.
-                bench.bins[0].im = 0.0;
-                if self.padded[0].is_multiple_of(2) {
-                    bench.bins[bins - 1].im = 0.0;
+                for (row, spectrum) in block.zip(bench.bins.chunks_exact_mut(wide)) {
+                    let (from, to) = (rows.start(row) - first, rows.start(row + 1) - first);
+                    if from == to {
+                        continue;
+                    }
+                    // What rounding left of the imaginary parts of bins that are real.
+                    spectrum[0].im = 0.0;
+                    if self.padded[0].is_multiple_of(2) {
+                        spectrum[bins - 1].im = 0.0;
+                    }
+                    let scratch = &mut bench.scratch[..backward.get_scratch_len()];
+                    done(backward.process_with_scratch(&mut spectrum[..bins], &mut bench.row, scratch));
+                    rows.write(row, &bench.row[..nx], &mut out[from..to]);
                 }
-                done(backward.process_with_scratch(
-                    &mut bench.bins[..bins],
-                    &mut bench.row,
-                    &mut bench.scratch[..backward.get_scratch_len()],
-                ));
-                rows.write(row, &bench.row[..nx], &mut out[begin..end]);
             }
         });
     }
+}
+
+/// Bins of a row, in whole strips.
+fn in_strips(bins: usize) -> usize {
+    bins.div_ceil(STRIP) * STRIP
 }
 
 /// The plans for columns.
@@ -211,24 +234,29 @@ impl Columns<'_> {
         let length = self.forward.len();
         let (half, bins) = (length / 2 + 1, symbol.values.len() / (length / 2 + 1));
         let wide = STRIP.min(bins - first);
-        let columns = &mut bench.columns[..wide * length];
-        for (x, column) in columns.chunks_exact_mut(length).enumerate() {
-            let (rows, padding) = column.split_at_mut(data.len() / STRIP);
-            for (to, row) in rows.iter_mut().zip(data.chunks_exact(STRIP)) {
-                *to = row[x];
-            }
-            padding.fill(ZERO);
+        // A little apart, so that writing them side by side does not fall on the same lines of cache.
+        let pitch = length + APART;
+        let rows = data.len() / STRIP;
+        for column in bench.columns.chunks_exact_mut(pitch).take(wide) {
+            column[rows..length].fill(ZERO);
         }
-        self.forward.process_with_scratch(columns, &mut bench.scratch[..self.forward.get_inplace_scratch_len()]);
-        for (column, symbol) in columns.chunks_exact_mut(length).zip(symbol.values[first * half..].chunks_exact(half)) {
+        for (y, row) in data.chunks_exact(STRIP).enumerate() {
+            for (x, value) in row.iter().take(wide).enumerate() {
+                bench.columns[x * pitch + y] = *value;
+            }
+        }
+        let symbols = symbol.values[first * half..].chunks_exact(half);
+        for (column, symbol) in bench.columns.chunks_exact_mut(pitch).zip(symbols).take(wide) {
+            let column = &mut column[..length];
+            self.forward.process_with_scratch(column, &mut bench.scratch[..self.forward.get_inplace_scratch_len()]);
             let (low, high) = column.split_at_mut(half);
             low.iter_mut().zip(symbol).for_each(|(value, symbol)| *value *= symbol);
             high.iter_mut().rev().zip(&symbol[1..]).for_each(|(value, symbol)| *value *= symbol);
+            self.backward.process_with_scratch(column, &mut bench.scratch[..self.backward.get_inplace_scratch_len()]);
         }
-        self.backward.process_with_scratch(columns, &mut bench.scratch[..self.backward.get_inplace_scratch_len()]);
-        for (x, column) in columns.chunks_exact(length).enumerate() {
-            for (from, row) in column.iter().zip(data.chunks_exact_mut(STRIP)) {
-                row[x] = *from;
+        for (y, row) in data.chunks_exact_mut(STRIP).enumerate() {
+            for (x, value) in row.iter_mut().take(wide).enumerate() {
+                *value = bench.columns[x * pitch + y];
             }
         }
     }

@@ -16,11 +16,13 @@ const REACH_2D: usize = 16;
 /// Size of the periodic grid that the entries are computed on.
 const GRID_3D: usize = 32;
 const GRID_2D: usize = 128;
+/// Numbers that are added side by side.
+const LANES: usize = 8;
 
 /// A near inverse of A + b on a set, symmetric and positive definite.
 pub struct Stencil {
     reach: [usize; 2],
-    /// `[2 reach y + 1][2 reach x + 1]`.
+    /// `[2 reach y + 1][2 reach x + 1]`, each row with zeros behind it up to whole lanes.
     entries: Vec<f64>,
     /// What a cell alone would give without local compliance, and the stiffness that the entries are for.
     own: f64,
@@ -52,8 +54,10 @@ impl Stencil {
         if local > 0.0 {
             entries = inverse(patch, size, reach, local);
         }
+        let entries = spread(&entries, 2 * reach[0] + 1);
         let pitch = nx + 2 * reach[0];
-        let field = vec![0.0; pitch * (ny + 2 * reach[1])];
+        // The last rows are read a little beyond their end.
+        let field = vec![0.0; pitch * (ny + 2 * reach[1]) + LANES];
         Stencil { reach, entries, own, mean, field, pitch, places: Vec::new(), factors: Vec::new() }
     }
 
@@ -88,17 +92,22 @@ impl Stencil {
         }
         self.wrap(patch);
         let [rx, ry] = self.reach;
-        let (wide, high) = (2 * rx + 1, 2 * ry + 1);
+        let (wide, high) = (in_lanes(2 * rx + 1), 2 * ry + 1);
         let before = ry * self.pitch + rx;
         let act = |at: usize, _: f64| {
             let first = self.places[at] as usize - before;
-            let mut sum = 0.0;
+            // Side by side, so that additions do not wait for each other.
+            let mut sums = [0.0; LANES];
             for row in 0..high {
                 let values = &self.field[first + row * self.pitch..][..wide];
                 let entries = &self.entries[row * wide..][..wide];
-                sum += values.iter().zip(entries).map(|(value, entry)| value * entry).sum::<f64>();
+                for (values, entries) in values.chunks_exact(LANES).zip(entries.chunks_exact(LANES)) {
+                    for lane in 0..LANES {
+                        sums[lane] += values[lane] * entries[lane];
+                    }
+                }
             }
-            sum * self.factors.get(at).copied().unwrap_or(1.0)
+            sums.iter().sum::<f64>() * self.factors.get(at).copied().unwrap_or(1.0)
         };
         super::passes::change(patch.threads, out, act);
     }
@@ -157,6 +166,20 @@ fn inverse(patch: &Patch<'_>, size: [usize; 2], reach: [usize; 2], local: f64) -
         dominate(&mut entries);
     }
     entries
+}
+
+/// A number of entries in whole lanes.
+fn in_lanes(count: usize) -> usize {
+    count.div_ceil(LANES) * LANES
+}
+
+/// Entries with zeros behind each row.
+fn spread(entries: &[f64], wide: usize) -> Vec<f64> {
+    let mut spread = vec![0.0; entries.len() / wide * in_lanes(wide)];
+    for (to, from) in spread.chunks_exact_mut(in_lanes(wide)).zip(entries.chunks_exact(wide)) {
+        to[..wide].copy_from_slice(from);
+    }
+    spread
 }
 
 /// Raises the diagonal where it does not outweigh the rest, which smoothing can bring about.
