@@ -6,6 +6,7 @@
 
 mod averaged;
 mod controlled;
+mod exact;
 mod going;
 mod law_points;
 mod newton;

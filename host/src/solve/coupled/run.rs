@@ -28,7 +28,7 @@ pub(in crate::solve) struct Coupled<'p> {
     pub(in crate::solve) plan: &'p Plan,
     pub(in crate::solve) solved: &'p SolvedPlan,
     pub(in crate::solve) evaluator: &'p dyn Evaluator,
-    gap: Vec<f64>,
+    pub(super) gap: Vec<f64>,
     velocities: Vec<Vec<f64>>,
 }
 
@@ -144,7 +144,7 @@ impl<'p> Coupled<'p> {
     }
 
     /// Relative velocities of the cells in a load step; empty where all slide alike.
-    fn slides(&self, step: &LoadStep) -> Result<Vec<f64>, SolveError> {
+    pub(super) fn slides(&self, step: &LoadStep) -> Result<Vec<f64>, SolveError> {
         let stick = step.stick.filter(|stick| *stick > 0.0);
         let mut slides = match (step.velocity_file, stick) {
             (Some(file), _) => self.velocities[file].clone(),
