@@ -99,10 +99,12 @@ fn exit_codes_are_those_of_the_program() {
 #[test]
 fn the_keys_on_the_page_about_scenes_are_those_of_the_program() {
     let page = std::fs::read_to_string(root().join("host/scenes/README.md")).expect("the page is there");
-    let block = page.split("```").find(|part| part.starts_with("toml")).expect("it shows a scene");
-    let scene = block.trim_start_matches("toml");
     let read = |text: &str| wearlaw::scene::Scene::parse(text, "page.toml", &[]).map(|_| ()).map_err(|e| e.to_string());
-    assert_eq!(read(scene), Ok(()));
+    let blocks: Vec<&str> = page.split("```").filter_map(|part| part.strip_prefix("toml")).collect();
+    assert_eq!(blocks.len(), 2, "a prescribed scene and a solved one");
+    for scene in blocks {
+        assert_eq!(read(scene), Ok(()));
+    }
     let help = Command::new(env!("CARGO_BIN_EXE_wearlaw")).args(["run", "--help"]).output().expect("it starts");
     assert!(String::from_utf8_lossy(&help.stdout).contains("## Histories"));
 }

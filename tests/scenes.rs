@@ -57,7 +57,7 @@ fn all_scenes() -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
     found.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     found.sort();
-    assert!(found.len() >= 11, "{found:?}");
+    assert!(found.len() >= 25, "{found:?}");
     found
 }
 
@@ -97,10 +97,18 @@ fn check_report(name: &str, report: &Value) {
     }
     let bar = report["scene"]["reference"]["bar"].as_f64().unwrap_or_else(|| panic!("{name} has no bar"));
     let error = report["error"]["value"].as_f64().expect("an error");
-    assert!(error <= bar && bar <= 1e-6, "{name}: error {error:e}, bar {bar:e}");
+    // Under a prescribed pressure time steps alone make an error; in a solved contact the grid does too, and published
+    // depths are those of another model.
+    let prescribed = report["scene"]["contact"]["model"] == "prescribed";
+    let highest = if prescribed { 1e-6 } else { 0.12 };
+    assert!(error <= bar && bar <= highest, "{name}: error {error:e}, bar {bar:e}");
     assert!(report["result"]["max_wear_depth"].as_f64().is_some_and(|depth| depth > 0.0), "{name}");
     assert!(report["cost"]["run_time_s"].as_f64().is_some_and(|time| time > 0.0 && time < 10.0), "{name}");
-    assert_eq!(report["warnings"], Value::Array(Vec::new()), "{name}");
+    let warnings = report["warnings"].as_array().expect("a list");
+    // Pressure that dies out opens cells, which is what this one is about.
+    let replaced =
+        |warning: &Value| name == "winkler_extinction" && warning.to_string().contains("backward Euler took");
+    assert!(warnings.iter().all(replaced), "{name}: {warnings:?}");
 }
 
 /// One row for the start and one for every step, times that go on, a wear depth that never falls, the result at the end.

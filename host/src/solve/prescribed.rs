@@ -280,7 +280,9 @@ impl<'p> Prescribed<'p> {
         match &self.plan.reference {
             None | Some(ReferencePlan::Refined) => {}
             Some(ReferencePlan::File(path)) => drop(reference::from_file(path, self.ids())?),
-            Some(ReferencePlan::Exact(_)) => reference::covered(self.plan, &self.evaluator.descriptor().name)?,
+            Some(ReferencePlan::Exact(named)) => {
+                reference::covered(self.plan, *named, &self.evaluator.descriptor().name)?;
+            }
         }
         Ok(())
     }
@@ -312,7 +314,7 @@ impl<'p> Prescribed<'p> {
                     .map(|piece| (self.site(piece), Drive::new(self.plan, self.history.as_ref(), piece)))
                     .collect();
                 let law = &self.evaluator.descriptor().name;
-                (reference::archard_prescribed(self.plan, law, &sites, self.points)?, named.name().to_owned())
+                (reference::archard_prescribed(self.plan, *named, law, &sites, self.points)?, named.name().to_owned())
             }
         };
         Ok(Some(compare(&record.wear, &exact, &name)))

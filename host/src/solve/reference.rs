@@ -10,8 +10,8 @@ use crate::contact::prescribed::Motion;
 use crate::integrator::norm;
 use crate::law::Values;
 use crate::plan::Plan;
-use crate::reference::Piece as LinearPiece;
 use crate::reference::archard::{self, ArchardConstants, ArchardReferenceError, TablePoint};
+use crate::reference::{NamedReference, Piece as LinearPiece};
 use crate::scene::Basis;
 use crate::solve::inputs::Drive;
 use crate::solve::site::Site;
@@ -114,15 +114,16 @@ fn relative(error: f64, size: f64) -> f64 {
     }
 }
 
-/// Checks that the exact answer to Archard's law covers a plan.
+/// Checks that a named answer is that of Archard's law under a prescribed pressure and covers a plan.
 ///
 /// # Errors
 /// What it does not cover.
-pub(super) fn covered(plan: &Plan, law: &str) -> Result<(), ReferenceError> {
-    let refuse =
-        |reason: &str| Err(ReferenceError::NotCovered { kind: "archard-prescribed", reason: reason.to_owned() });
+pub(super) fn covered(plan: &Plan, named: NamedReference, law: &str) -> Result<(), ReferenceError> {
+    let refuse = |reason: &str| Err(ReferenceError::NotCovered { kind: named.name(), reason: reason.to_owned() });
     let material = &plan.material;
-    if law != "archard" {
+    if named != NamedReference::ArchardPrescribed {
+        return refuse("it is for a contact that is solved, this pressure is prescribed");
+    } else if law != "archard" {
         return refuse("the law is not `archard`");
     } else if material.constants.varies_in_temperature() {
         return refuse("the constants depend on temperature");
@@ -139,11 +140,12 @@ pub(super) fn covered(plan: &Plan, law: &str) -> Result<(), ReferenceError> {
 /// Wear depths of Archard's law from the linear pieces of a scene, by a quadrature of its own.
 pub(super) fn archard_prescribed(
     plan: &Plan,
+    named: NamedReference,
     law: &str,
     sites: &[(Site<'_>, Drive<'_>)],
     points: usize,
 ) -> Result<Vec<f64>, ReferenceError> {
-    covered(plan, law)?;
+    covered(plan, named, law)?;
     let material = &plan.material;
     let times = material.constants.break_times();
     let at = |time: f64| {

@@ -68,7 +68,7 @@ impl Scar {
     ) -> Result<Scar, QuantityError> {
         let start = Hertz::new(indenter, radius, modulus, load)?;
         let dose = not_negative("the wear per pressure", wear_per_pressure)?;
-        Scar::after(start, dose / time_unit(&start))
+        Scar::after(start, worn_part(&start, dose))
     }
 
     /// The scar that grows from a contact until tau.
@@ -138,6 +138,12 @@ impl Scar {
         let [coarse, fine] = self.solutions.each_ref().map(value);
         fine + self.beyond * (fine - coarse)
     }
+}
+
+/// tau, the worn volume over V0, after a product of wear rate per pressure and time; no unit.
+#[must_use]
+pub fn worn_part(start: &Hertz, wear_per_pressure: f64) -> f64 {
+    wear_per_pressure / time_unit(start)
 }
 
 /// c t for which tau is one: V0 / P.

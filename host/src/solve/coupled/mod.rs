@@ -6,6 +6,7 @@
 
 mod averaged;
 mod controlled;
+mod exact;
 mod going;
 mod ladder;
 mod law_points;

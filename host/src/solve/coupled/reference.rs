@@ -1,8 +1,10 @@
 //! How far a run on a contact that answers back is from what it should be.
 
+use super::exact::{Answer, Asked, Published};
 use super::run::Coupled;
 use crate::plan::ReferencePlan;
 use crate::record::{End, Nobody, Record};
+use crate::reference::NamedReference;
 use crate::solve::reference::{compare, from_file, relative_l2};
 use crate::solve::{ErrorNorm, ReferenceError, SolveError};
 
@@ -13,9 +15,10 @@ const MORE_SUBSTEPS: u64 = 16;
 
 /// What a run should have come to.
 struct Expected {
-    wear: Vec<f64>,
-    pressure: Option<Vec<f64>>,
+    answer: Answer,
     name: String,
+    /// Whether its pressure counts.
+    pressed: bool,
 }
 
 impl Coupled<'_> {
@@ -24,10 +27,7 @@ impl Coupled<'_> {
         match &self.plan.reference {
             None | Some(ReferencePlan::Refined) => {}
             Some(ReferencePlan::File(path)) => drop(from_file(path, self.ids())?),
-            Some(ReferencePlan::Exact(named)) => {
-                let reason = "it is for another contact model";
-                return Err(ReferenceError::NotCovered { kind: named.name(), reason: reason.to_owned() }.into());
-            }
+            Some(ReferencePlan::Exact(named)) => drop(self.ask(*named).map_err(|reason| not_covered(*named, reason))?),
         }
         Ok(())
     }
@@ -41,27 +41,59 @@ impl Coupled<'_> {
         let Some(wanted) = &self.plan.reference else { return Ok(None) };
         let expected = match wanted {
             ReferencePlan::File(path) => {
-                Expected { wear: from_file(path, self.ids())?, pressure: None, name: path.display().to_string() }
+                let answer = Answer { wear: from_file(path, self.ids())?, ..Answer::default() };
+                Expected { answer, name: path.display().to_string(), pressed: false }
             }
-            ReferencePlan::Refined => self.refined(record)?,
+            ReferencePlan::Refined => self.refined()?,
             ReferencePlan::Exact(named) => {
-                let reason = "it is for another contact model".to_owned();
-                return Err(ReferenceError::NotCovered { kind: named.name(), reason }.into());
+                let refuse = |reason| not_covered(*named, reason);
+                let asked = self.ask(*named).map_err(refuse)?;
+                let last = record.history.last();
+                if matches!(asked, Asked::Published) {
+                    let cycles = last.map_or(0.0, |row| row.cycle);
+                    return Ok(Some(published(record, &self.published(cycles).map_err(refuse)?, named.name())));
+                }
+                let answer = self.answer(&asked, last.map_or(0.0, |row| row.time)).map_err(refuse)?;
+                Expected { answer, name: named.name().to_owned(), pressed: true }
             }
         };
-        let mut error = compare(&record.wear, &expected.wear, &expected.name);
-        let area = self.solved.cells.area();
-        let volume = |wear: &[f64]| wear.iter().sum::<f64>() * area;
+        Ok(Some(self.norms(record, &expected)))
+    }
+
+    /// All norms of the difference between a record and an answer on the cells.
+    fn norms(&self, record: &Record<SolveError>, Expected { answer, name, pressed }: &Expected) -> ErrorNorm {
+        let cells = self.solved.cells;
+        let mut error = compare(&record.wear, &answer.wear, name);
         let mut also = |name: &str, value: f64| error.by_field.insert(name.to_owned(), value);
-        also("volume_relative", relative(volume(&record.wear), volume(&expected.wear)));
-        if let Some(pressure) = &expected.pressure {
-            also("pressure_l2_relative", relative_l2(&record.pressure, pressure));
+        let volume = |wear: &[f64]| wear.iter().sum::<f64>() * cells.area();
+        also("volume_relative", relative(volume(&record.wear), answer.volume.unwrap_or_else(|| volume(&answer.wear))));
+        if !pressed || record.pressure.is_empty() {
+            return error;
         }
-        Ok(Some(error))
+        let pressure = relative_l2(&record.pressure, &answer.pressure);
+        also("pressure_l2_relative", pressure);
+        if let Some(center) = answer.center {
+            also("centre_depth_relative", relative(record.wear[center], answer.wear[center]));
+            also("centre_pressure_relative", relative(record.pressure[center], answer.pressure[center]));
+        }
+        if let Some(radius) = answer.contact_radius {
+            let area = record.pressure.iter().filter(|pressure| **pressure > 0.0).count() as f64 * cells.area();
+            let found = if cells.dimension == 2 { area / 2.0 } else { (area / std::f64::consts::PI).sqrt() };
+            also("contact_radius_cells", (found - radius).abs() / cells.spacing[0]);
+        }
+        if let (Some(load), Some(found)) = (answer.load, record.history.last().and_then(|row| row.load)) {
+            also("load_relative", relative(found, load));
+        }
+        if answer.wear.iter().all(|depth| *depth == 0.0) {
+            // Nothing is worn away, so the contact is what the answer is about.
+            error.value = pressure;
+            error.norm = "relative L2 error of the contact pressure".to_owned();
+        }
+        error
     }
 
     /// The same scene in many more steps, and to a tighter contact tolerance.
-    fn refined(&self, record: &Record<SolveError>) -> Result<Expected, SolveError> {
+    fn refined(&self) -> Result<Expected, SolveError> {
         let mut plan = self.plan.clone();
         let mut solved = self.solved.clone();
         plan.output.fields.clear();
@@ -72,9 +104,9 @@ impl Coupled<'_> {
         match finer.end {
             End::Failed(error) => Err(error),
             _ => Ok(Expected {
-                wear: finer.wear,
-                pressure: (!record.pressure.is_empty()).then_some(finer.pressure),
+                answer: Answer { wear: finer.wear, pressure: finer.pressure, ..Answer::default() },
                 name: "the same scene in many more steps".to_owned(),
+                pressed: true,
             }),
         }
     }
@@ -82,4 +114,24 @@ impl Coupled<'_> {
 
 fn relative(found: f64, expected: f64) -> f64 {
     if found == expected { 0.0 } else { (found - expected).abs() / expected.abs() }
+}
+
+/// The largest depth of the wearing body against what was published.
+fn published(record: &Record<SolveError>, published: &Published, name: &str) -> ErrorNorm {
+    let deepest = published.share * record.wear.iter().fold(0.0, |most: f64, depth| most.max(*depth));
+    let computed = relative(deepest, published.computed);
+    let mut by_field = std::collections::BTreeMap::from([("computed_depth_relative".to_owned(), computed)]);
+    if let Some(measured) = published.measured {
+        by_field.insert("measured_depth_relative".to_owned(), relative(deepest, measured));
+    }
+    ErrorNorm {
+        reference: name.to_owned(),
+        norm: "relative error of the largest wear depth of the wearing body, computed by finite elements".to_owned(),
+        value: computed,
+        by_field,
+    }
+}
+
+fn not_covered(named: NamedReference, reason: String) -> SolveError {
+    ReferenceError::NotCovered { kind: named.name(), reason }.into()
 }
