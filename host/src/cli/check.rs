@@ -47,6 +47,7 @@ pub(super) fn command(console: &Console, arguments: &CheckArguments) -> Result<E
         selected: select(&arguments.only, arguments.quick)?,
         waivers: arguments.waive.as_deref().map(Waivers::read).transpose()?.unwrap_or_default(),
         seed: arguments.seed,
+        quick: arguments.quick,
         timeout: arguments.timeout.unwrap_or(TIMEOUT),
         replays: Some(PathBuf::from(format!("{}.check", found.name))),
         ..CheckOptions::new(found.source)

@@ -1,10 +1,10 @@
 //! One worker: started, given its task, waited for, and ended with everything that it started.
-#![allow(unsafe_code)] // reason: makes a file without a name, and reaps processes that a worker left behind.
+#![allow(unsafe_code)] // reason: reaps processes that a worker left behind.
 
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
-use std::os::fd::{AsFd, AsRawFd, FromRawFd};
+use std::os::fd::{AsFd, AsRawFd};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::ExitStatus;
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use super::WORKER_COMMAND;
 use super::check::Check;
 use super::message::{Answer, Task};
-use super::slate::{Crumb, Slate};
+use super::slate::{Crumb, Slate, memory_file};
 use crate::law::isolate::process::{Event, Process, descendants, signal};
 
 /// How a worker ended.
@@ -52,6 +52,8 @@ const MARK: &str = "WEARLAW_CHECK_WORKER";
 const LOOK: Duration = Duration::from_millis(100);
 /// How long a process may take to be gone once its channel is closed, or to end when it only has to write out.
 const GOING: Duration = Duration::from_secs(2);
+/// How long a process may have no environment yet while it is started.
+const STARTING: Duration = Duration::from_millis(20);
 /// Most of what was printed that is kept.
 const PRINTED: u64 = 1 << 16;
 
@@ -127,16 +129,6 @@ fn answered(slate: &Slate) -> Ended {
     }
 }
 
-fn memory_file() -> io::Result<File> {
-    // SAFETY: the name is closed by a NUL; the call touches no other memory.
-    let descriptor = unsafe { libc::memfd_create(c"wearlaw-printed".as_ptr(), libc::MFD_CLOEXEC) };
-    if descriptor < 0 {
-        return Err(io::Error::last_os_error());
-    }
-    // SAFETY: the descriptor was just made and belongs to nobody else.
-    Ok(unsafe { File::from_raw_fd(descriptor) })
-}
-
 fn read_printed(file: &mut File) -> String {
     let mut bytes = Vec::new();
     let length = file.metadata().map_or(0, |metadata| metadata.len());
@@ -166,12 +158,21 @@ fn sweep(running: &BTreeSet<u32>) {
 }
 
 fn is_left_behind(child: libc::pid_t, running: &BTreeSet<u32>) -> bool {
-    let known = u32::try_from(child).is_ok_and(|child| running.contains(&child));
-    let environment = std::fs::read(format!("/proc/{child}/environ")).unwrap_or_default();
-    let marked = environment.split(|byte| *byte == 0).any(|pair| pair.starts_with(MARK.as_bytes()));
-    // A program that was started without any environment has no mark; one that has ended has none to show either.
-    let bare = environment.is_empty() && !is_zombie(child);
-    !known && (marked || bare)
+    if u32::try_from(child).is_ok_and(|child| running.contains(&child)) {
+        return false;
+    }
+    let environment = || std::fs::read(format!("/proc/{child}/environ")).unwrap_or_default();
+    let found = environment();
+    if found.split(|byte| *byte == 0).any(|pair| pair.starts_with(MARK.as_bytes())) {
+        return true;
+    }
+    // A program that was started without any environment has no mark. One that has ended has none to show, nor has one
+    // that is just about to start.
+    let bare = |environment: Vec<u8>| environment.is_empty() && !is_zombie(child);
+    bare(found) && {
+        std::thread::sleep(STARTING);
+        bare(environment())
+    }
 }
 
 fn is_zombie(process: libc::pid_t) -> bool {

@@ -137,7 +137,7 @@ Load {
         ["The contract"] "no change of the locale";
     LoadSignals "load/signals" quick "signal handlers and the signal mask are left alone from load to unload"
         ["The contract"] "no signal handler";
-    LoadThreads "load/threads" quick "loading starts no thread and unloading leaves none"
+    LoadThreads "load/threads" quick "loading starts no thread or process and unloading leaves none"
         ["The contract"] "loading starts no thread; threads of an instance end with it";
     LoadEnvironment "load/environment" quick "environment variables are left alone from load to unload"
         ["The contract"] "no change of environment variables";

@@ -19,6 +19,8 @@ pub(super) struct Task {
     /// Options text for the law.
     pub(super) options: Option<String>,
     pub(super) seed: u64,
+    /// Less is tried where much would be.
+    pub(super) quick: bool,
     /// Table of known values.
     pub(super) expected: Option<PathBuf>,
     /// Seconds after which a loop of many calls is cut short.

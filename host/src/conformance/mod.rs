@@ -104,6 +104,8 @@ pub struct CheckOptions {
     pub waivers: Waivers,
     /// Seed of the random inputs.
     pub seed: u64,
+    /// Less is tried where much would be; which checks run is said by `selected`.
+    pub quick: bool,
     /// Longest time for one check.
     pub timeout: Duration,
     /// Checks that run at the same time.
@@ -125,6 +127,7 @@ impl CheckOptions {
             selected: Check::ALL.to_vec(),
             waivers: Waivers::default(),
             seed: 1,
+            quick: false,
             timeout: TIMEOUT,
             parallel: std::thread::available_parallelism().map_or(2, usize::from),
             replays: None,

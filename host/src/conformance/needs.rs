@@ -13,23 +13,7 @@ const CALLED: [Check; 7] = [
     Check::DescriptorClaims,
 ];
 
-/// What every look at an answer rests on: the law comes back, and touches the arrays that it should.
-const ANSWERED: [Check; 12] = [
-    Check::FaultsException,
-    Check::FaultsExit,
-    Check::FaultsAbort,
-    Check::FaultsHang,
-    Check::FaultsStack,
-    Check::FaultsSignal,
-    Check::MemoryOutputs,
-    Check::MemoryAfter,
-    Check::MemoryBefore,
-    Check::MemoryInputs,
-    Check::MemoryUnwritten,
-    Check::LoadOpens,
-];
-
-/// The six that are judged by one run of the law.
+/// The six that are judged by one run of the law: it comes back, whatever the input.
 pub(super) const FAULTS: [Check; 6] = [
     Check::FaultsException,
     Check::FaultsExit,
@@ -39,44 +23,28 @@ pub(super) const FAULTS: [Check; 6] = [
     Check::FaultsSignal,
 ];
 
+/// What every look at an answer rests on: the law touches the arrays that it should, and no others.
+const ARRAYS: [Check; 5] =
+    [Check::MemoryOutputs, Check::MemoryAfter, Check::MemoryBefore, Check::MemoryInputs, Check::MemoryUnwritten];
+
 /// The checks that must not have failed for this one to say anything; they are done before it.
 pub(super) fn needs(check: Check) -> Vec<Check> {
     let mut needed: Vec<Check> = Vec::new();
-    let group = check.facts().group;
     match check {
         Check::LoadSymbols => {}
         Check::LoadOpens => needed.push(Check::LoadSymbols),
         _ => needed.push(Check::LoadOpens),
     }
-    let called = !matches!(group, Group::Load | Group::Descriptor) && check != Check::FloatLoad;
-    let structs = [Check::DescriptorSmaller, Check::DescriptorLarger, Check::DescriptorText, Check::DescriptorEnd];
-    if called || structs.contains(&check) {
+    if calls(check) {
         needed.extend(CALLED);
     }
-    let evaluated = called && group != Group::Faults && !matches!(check, Check::FloatCreate);
-    if evaluated || structs[..2].contains(&check) {
+    if evaluates(check) {
         needed.extend(FAULTS);
     }
-    match check {
-        // Each of these asks for a little more than the one before.
-        Check::MemoryAfter | Check::MemoryBefore | Check::MemoryInputs | Check::MemoryUnwritten => {
-            needed.push(Check::MemoryOutputs);
-        }
-        Check::MemoryOutputs => {}
-        _ if evaluated && group != Group::Float => needed.extend(ANSWERED),
-        _ => {}
+    if looks_at_answers(check) {
+        needed.extend(ARRAYS);
     }
-    let compares = matches!(
-        group,
-        Group::Values | Group::Threads | Group::Batch | Group::State | Group::Derivative | Group::Physics | Group::Cost
-    );
-    if compares
-        || matches!(check, Check::DeterminismThread | Check::DeterminismProcess | Check::DeterminismRecreate)
-        || matches!(
-            check,
-            Check::MemoryUndeclared | Check::MemoryUses | Check::DescriptorLarger | Check::DescriptorSmaller
-        )
-    {
+    if compares(check) {
         needed.push(Check::DeterminismRepeat);
     }
     needed.extend_from_slice(after(check));
@@ -85,20 +53,77 @@ pub(super) fn needs(check: Check) -> Vec<Check> {
     needed
 }
 
+/// True for a check that needs a law with a sound description.
+fn calls(check: Check) -> bool {
+    match check.facts().group {
+        // What is malformed is loaded and unloaded all the same.
+        Group::Load => false,
+        Group::Descriptor => matches!(
+            check,
+            Check::DescriptorSmaller | Check::DescriptorLarger | Check::DescriptorText | Check::DescriptorEnd
+        ),
+        _ => check != Check::FloatLoad,
+    }
+}
+
+/// True for a check that needs a law that comes back.
+fn evaluates(check: Check) -> bool {
+    match check.facts().group {
+        Group::Load => !matches!(check, Check::LoadSymbols | Check::LoadOpens),
+        Group::Faults => check == Check::FaultsCreate,
+        Group::Descriptor => calls(check) && check != Check::DescriptorEnd,
+        _ => check != Check::FloatLoad,
+    }
+}
+
+/// True for a check that looks at what the law answers.
+fn looks_at_answers(check: Check) -> bool {
+    match check.facts().group {
+        Group::Load | Group::Faults => false,
+        Group::Float => check == Check::FloatNan,
+        Group::Descriptor => evaluates(check),
+        Group::Memory => !ARRAYS.contains(&check),
+        _ => true,
+    }
+}
+
+/// True for a check that compares answers, or looks for inputs that are answered well.
+fn compares(check: Check) -> bool {
+    looks_at_answers(check) && !matches!(check, Check::DeterminismRepeat | Check::FloatNan | Check::DescriptorText)
+}
+
 /// Needs of single checks: the simpler one says it already.
 fn after(check: Check) -> &'static [Check] {
+    use Check::*;
     match check {
-        Check::FloatThread => &[Check::FloatLoad, Check::FloatEvaluate, Check::FloatCreate, Check::FloatDestroy],
-        Check::BatchShuffled | Check::BatchRanges | Check::BatchOdd | Check::BatchStatus => &[Check::BatchSingles],
-        Check::BatchUniformFields | Check::BatchPerPointConstants => &[Check::BatchSingles, Check::BatchOdd],
-        Check::BatchStridedFields => &[Check::BatchSingles, Check::BatchOdd, Check::BatchUniformFields],
-        Check::BatchStridedConstants => &[Check::BatchSingles, Check::BatchOdd, Check::BatchPerPointConstants],
-        Check::BatchLarge => &[Check::BatchSingles, Check::BatchOdd],
-        Check::ThreadsConcurrent => &[Check::ThreadsInterleaved],
-        Check::PhysicsUnits | Check::ValuesBounds | Check::PhysicsPressureDegree => &[Check::ThreadsInterleaved],
-        Check::StateAgain | Check::StateRestart => &[Check::StateStart, Check::StateEnd],
-        Check::DerivativePressure | Check::DerivativeKinks => &[Check::DerivativeAsked],
-        Check::PhysicsDirectionInward => &[Check::PhysicsDirectionLength],
+        LoadTwice => &[LoadThreads],
+        LoadSilent | LoadWorkingDirectory | LoadLocale | LoadSignals | LoadEnvironment => &[LoadThreads, LoadTwice],
+        FloatThread => &[FloatLoad, FloatEvaluate, FloatCreate, FloatDestroy],
+        MemoryAfter | MemoryUnwritten => &[MemoryOutputs],
+        MemoryBefore => &[MemoryOutputs, MemoryAfter],
+        MemoryInputs => &[MemoryOutputs, MemoryAfter, MemoryBefore],
+        MemoryUses => &[MemoryUndeclared],
+        MemoryInstances => &[MemoryCalls, LoadThreads],
+        ValuesExpected => &[DescriptorExtension, MemoryUndeclared],
+        ValuesExtremes => &[ValuesFinite, ValuesZeroPressure, ValuesZeroSlip, ValuesZeroDt, ValuesNegativePressure],
+        ValuesBounds => &[ValuesExtremes, ThreadsInterleaved],
+        DeterminismProcess => &[DeterminismRecreate],
+        ThreadsInterleaved => &[DeterminismProcess, DeterminismRecreate],
+        ThreadsConcurrent => &[ThreadsInterleaved, DeterminismThread, StateStart],
+        BatchShuffled | BatchOdd | BatchStatus => &[BatchSingles],
+        BatchRanges | BatchLarge => &[BatchSingles, BatchOdd],
+        BatchUniformFields | BatchPerPointConstants => &[BatchSingles, BatchOdd],
+        BatchStridedFields => &[BatchSingles, BatchOdd, BatchUniformFields],
+        BatchStridedConstants => &[BatchSingles, BatchOdd, BatchPerPointConstants],
+        StateAgain => &[StateStart, StateEnd],
+        StateRestart => &[StateStart, StateEnd, StateAgain, DeterminismRecreate],
+        DerivativePressure | DerivativeKinks => &[DerivativeAsked, ValuesFinite],
+        PhysicsNonNegative | PhysicsLinearInDt | PhysicsFrame => &[ValuesFinite],
+        PhysicsZeroWithoutPressure => &[ValuesZeroPressure],
+        PhysicsZeroWithoutSlip => &[ValuesZeroSlip],
+        PhysicsUnits | PhysicsPressureDegree => &[ThreadsInterleaved, ValuesFinite],
+        PhysicsDirectionInward => &[PhysicsDirectionLength],
+        CostPerPoint | CostSubnormals => &[MemoryUndeclared, BatchLarge],
         _ => &[],
     }
 }
@@ -136,6 +161,7 @@ mod tests {
         }
         assert!(needs(Check::BatchSingles).contains(&Check::MemoryAfter));
         assert!(needs(Check::ValuesFinite).contains(&Check::DeterminismRepeat));
-        assert!(!needs(Check::LoadSilent).contains(&Check::FaultsHang));
+        assert!(needs(Check::LoadSilent).contains(&Check::FaultsHang));
+        assert!(!needs(Check::FaultsHang).contains(&Check::LoadSilent));
     }
 }

@@ -22,6 +22,8 @@ pub struct Replay {
     pub check: Check,
     /// Seed of its random inputs.
     pub seed: u64,
+    /// Whether less was tried.
+    pub quick: bool,
     /// Name of the law.
     pub law: Option<String>,
     /// The options text that the law was created with.
@@ -51,6 +53,7 @@ impl Replay {
             wearlaw_replay: VERSION,
             check: result.check,
             seed: options.seed,
+            quick: options.quick,
             law: result.law.clone().or_else(|| options.law.clone()),
             options: options.options.clone(),
             expected: expected.map(|path| std::path::absolute(&path).unwrap_or(path)),
@@ -100,6 +103,7 @@ impl Replay {
     pub fn apply(&self, options: &mut CheckOptions) {
         options.selected = vec![self.check];
         options.seed = self.seed;
+        options.quick = self.quick;
         options.law = options.law.take().or_else(|| self.law.clone());
         options.options = options.options.take().or_else(|| self.options.clone());
         if let Some(path) = self.expected.as_ref().filter(|path| path.exists())

@@ -57,6 +57,8 @@ pub fn run(
 
 struct Runner<'r> {
     options: &'r CheckOptions,
+    /// With an absolute path: a law may change the working directory.
+    source: Source,
     program: PathBuf,
     sha256: Option<String>,
     stop: &'r AtomicBool,
@@ -87,6 +89,10 @@ impl<'r> Runner<'r> {
             Source::File(path) => FileFacts::examine(path).ok().map(|facts| facts.sha256),
             Source::Embedded(_) => None,
         };
+        let source = match &options.source {
+            Source::File(path) => Source::File(std::path::absolute(path).unwrap_or_else(|_| path.clone())),
+            Source::Embedded(name) => Source::Embedded(name.clone()),
+        };
         let here = || std::env::current_exe().unwrap_or_else(|_| PathBuf::from("/proc/self/exe"));
         let shared = Shared {
             on,
@@ -98,6 +104,7 @@ impl<'r> Runner<'r> {
         };
         Ok(Self {
             options,
+            source,
             program: options.program.clone().unwrap_or_else(here),
             sha256,
             stop,
@@ -127,6 +134,7 @@ impl<'r> Runner<'r> {
             let (outcome, _) = self.single(None, Check::LoadSymbols)?;
             if outcome.falls_short() {
                 failed.push(((None, Check::LoadSymbols), Check::LoadSymbols));
+                failed.push(((None, Check::LoadOpens), Check::LoadSymbols));
             }
             self.report(None, Check::LoadSymbols, outcome, 0.0)?;
         }
@@ -264,10 +272,11 @@ impl<'r> Runner<'r> {
         let options = self.options;
         Task {
             check,
-            source: options.source.clone(),
+            source: self.source.clone(),
             law: law.map(str::to_owned).or_else(|| options.law.clone()),
             options: options.options.clone(),
             seed: options.seed,
+            quick: options.quick,
             expected: self.expected(law),
             budget: BUDGET * options.timeout.as_secs_f64(),
             narrow: None,
@@ -276,7 +285,8 @@ impl<'r> Runner<'r> {
     }
 
     fn expected(&self, law: Option<&str>) -> Option<PathBuf> {
-        self.options.expected.file(law, self.count.load(Ordering::Relaxed))
+        let found = self.options.expected.file(law, self.count.load(Ordering::Relaxed))?;
+        Some(std::path::absolute(&found).unwrap_or(found))
     }
 
     fn attempt(&self, task: &Task, timeout: Duration) -> Result<Attempt, ConformanceError> {
@@ -318,13 +328,16 @@ impl<'r> Runner<'r> {
     /// The check of a fault that the law is known to have, if this worker ended by the same.
     fn known_fault(&self, law: Option<&str>, check: Check, attempt: &Attempt) -> Option<Check> {
         let (kind, _) = fault(attempt, self.options.timeout)?;
-        let own = matches!(attempt.crumb.touched, Touched::Behind | Touched::Before | Touched::ReadOnly)
-            || matches!(check.facts().group, Group::Load | Group::Memory | Group::Faults);
+        let guarded = matches!(attempt.crumb.touched, Touched::Behind | Touched::Before | Touched::ReadOnly);
+        let absent = matches!(check, Check::MemoryUndeclared | Check::MemoryUses | Check::MemoryOutputs);
+        let loading = matches!(check, Check::LoadSymbols | Check::LoadOpens | Check::LoadTwice);
+        let own = guarded || absent || loading || check == Check::FaultsCreate;
         let shared = self.lock();
         let known = shared
             .results
             .iter()
-            .any(|result| result.check == kind && result.law.as_deref() == law && result.outcome.finding().is_some());
+            .filter(|result| law.is_none() || result.law.as_deref() == law)
+            .any(|result| result.check == kind && result.outcome.finding().is_some());
         (known && !own).then_some(kind)
     }
 

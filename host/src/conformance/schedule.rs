@@ -72,18 +72,19 @@ impl Schedule {
         &self.units[index].0
     }
 
-    /// The check that stands in the way of one, if any.
+    /// The check that stands in the way of one, if any; what a library does depends on every law in it.
     fn obstacle(&self, law: Option<usize>, check: Check) -> Option<Check> {
-        let failed = |need: &Check| self.failed.get(&(law, *need)).or_else(|| self.failed.get(&(None, *need)));
-        needs(check).iter().find_map(failed).copied()
+        let needed = needs(check);
+        let matters = |item: &Item| needed.contains(&item.1) && related(law, item.0);
+        self.failed.iter().find(|(item, _)| matters(item)).map(|(_, by)| *by)
     }
 
     /// True if everything that a unit needs and that is to be done is done.
     fn is_ready(&self, unit: &Unit) -> bool {
         let needed: Vec<Check> = unit.checks.iter().flat_map(|check| needs(*check)).collect();
         self.units.iter().all(|(other, state)| {
-            let related = other.law.is_none() || other.law == unit.law;
-            let matters = related && other != unit && other.checks.iter().any(|check| needed.contains(check));
+            let matters = related(unit.law, other.law) && other != unit;
+            let matters = matters && other.checks.iter().any(|check| needed.contains(check));
             !matters || *state == State::Done
         })
     }
@@ -140,6 +141,11 @@ impl Schedule {
             }
         }
     }
+}
+
+/// True if what holds for one matters for the other: they belong to one law, or one of them to the whole library.
+fn related(one: Option<usize>, other: Option<usize>) -> bool {
+    one.is_none() || other.is_none() || one == other
 }
 
 #[cfg(test)]

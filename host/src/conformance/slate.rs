@@ -133,13 +133,7 @@ pub(super) struct Slate {
 impl Slate {
     /// Makes the memory, in the checker.
     pub(super) fn create() -> io::Result<Self> {
-        // SAFETY: the name is closed by a NUL; the call touches no other memory.
-        let descriptor = unsafe { libc::memfd_create(c"wearlaw-check".as_ptr(), libc::MFD_CLOEXEC) };
-        if descriptor < 0 {
-            return Err(io::Error::last_os_error());
-        }
-        // SAFETY: the descriptor was just made and belongs to nobody else.
-        let file = unsafe { File::from_raw_fd(descriptor) };
+        let file = memory_file()?;
         file.set_len(BYTES)?;
         Ok(Self { map: MmapRaw::map_raw(&file)?, file })
     }
@@ -223,9 +217,9 @@ impl Slate {
         self.word(WORD_CALL).fetch_add(1, Ordering::AcqRel) + 1
     }
 
-    /// Notes that the call of this number is made again point by point.
-    pub(super) fn single_point(&self) {
-        self.word(WORD_POINTS).store(1, Ordering::Release);
+    /// Notes how many points the law is called with, where that is not what the call as a whole has.
+    pub(super) fn points(&self, points: usize) {
+        self.word(WORD_POINTS).store(points as u64, Ordering::Release);
     }
 
     /// Notes the inputs at the first point of the call.
@@ -255,6 +249,17 @@ impl Slate {
             offset: number(WORD_OFFSET),
         }
     }
+}
+
+/// A file without a name, in memory, that goes with its last descriptor.
+pub(super) fn memory_file() -> io::Result<File> {
+    // SAFETY: the name is closed by a NUL; the call touches no other memory.
+    let descriptor = unsafe { libc::memfd_create(c"wearlaw-check".as_ptr(), libc::MFD_CLOEXEC) };
+    if descriptor < 0 {
+        return Err(io::Error::last_os_error());
+    }
+    // SAFETY: the descriptor was just made and belongs to nobody else.
+    Ok(unsafe { File::from_raw_fd(descriptor) })
 }
 
 #[cfg(test)]

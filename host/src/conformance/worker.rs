@@ -11,6 +11,7 @@ use std::sync::{Mutex, PoisonError};
 use super::bodies::{self, Bench};
 use super::check::Check;
 use super::harness::call;
+use super::harness::fault_note::note_faults;
 use super::message::{Answer, Task, Verdict};
 use super::slate::Slate;
 
@@ -40,6 +41,7 @@ pub fn worker_main(arguments: &[String]) -> i32 {
         first.get_or_insert_with(|| panic.to_string());
     }));
     call::narrow(task.narrow);
+    note_faults(slate);
     let prints = task.check == Check::LoadSilent;
     let answer = answer(task, slate);
     let sent = serde_json::to_vec(&answer).is_ok_and(|bytes| slate.put_answer(&bytes));
@@ -71,7 +73,8 @@ fn answer(task: Task, slate: &'static Slate) -> Answer {
     Answer { verdict, laws, bits, fault }
 }
 
-/// Rust's runtime catches these to tell a stack overflow; a law's own fault must end the process at once.
+/// Rust's runtime catches these to tell a stack overflow; a law's own fault must end the process at once. Two of them are
+/// noted before they do.
 fn reset_signals() {
     for signal in [libc::SIGSEGV, libc::SIGBUS, libc::SIGABRT, libc::SIGFPE, libc::SIGILL] {
         // SAFETY: setting the default action needs no handler and is allowed for all of these.

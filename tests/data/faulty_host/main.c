@@ -52,12 +52,12 @@ static int run_probe(const char *check, const char *path) {
 static int wait_for(pid_t child, const char *check, int *status) {
     /* Where a hang is the fault, little else is done; elsewhere a busy machine must not look like one. */
     int short_one = strcmp(check, "faults/hang") == 0 || strcmp(check, "load/opens") == 0;
-    for (int tenths = 0; tenths < (short_one ? 80 : 1200); ++tenths) {
-        struct timespec tenth = {0, 100000000};
+    for (int hundredths = 0; hundredths < (short_one ? 800 : 12000); ++hundredths) {
+        struct timespec hundredth = {0, 10000000};
         if (waitpid(child, status, WNOHANG) == child) {
             return 0;
         }
-        nanosleep(&tenth, NULL);
+        nanosleep(&hundredth, NULL);
     }
     kill(child, SIGKILL);
     waitpid(child, status, 0);

@@ -50,6 +50,9 @@ static void degree(law_handle *h) {
     if (h->law.pressure_degree_constant >= 0) {
         claimed = j->constant[h->law.pressure_degree_constant][0];
     }
+    if (!more->field[0]) {
+        return;
+    }
     for (int64_t i = 0; i < POINTS; ++i) {
         more->field[0][i] *= 3;
     }
@@ -89,7 +92,7 @@ static void frame(law_handle *h) {
 static void direction(law_handle *h, int inward) {
     job *j = make_job(h, POINTS, 1);
     reply *r = evaluate(h, make_instance(h), j, all_outputs(h));
-    for (int64_t i = 0; i < POINTS; ++i) {
+    for (int64_t i = 0; i < POINTS && (r->want & WL_OUT_DIRECTION) && j->field[4]; ++i) {
         const double *d = r->direction + 3 * i, *n = j->field[4] + 3 * i;
         double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         double into = -(d[0] * n[0] + d[1] * n[1] + d[2] * n[2]);

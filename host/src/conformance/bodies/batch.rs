@@ -79,8 +79,9 @@ fn all(count: usize) -> Vec<usize> {
 /// A batch against its points.
 pub(super) fn singles(bench: &Bench) -> Judged {
     over_ways(bench, POINTS, |known, differences| {
-        for count in [POINTS, POINTS / 2, 2, 1] {
-            known.compare(&all(count), &known.layout, &format!("a batch of {count} points"), differences)?;
+        for count in [1, 2, POINTS / 2, POINTS, 8 * POINTS, 16 * POINTS] {
+            let indices: Vec<usize> = (0..count).map(|index| index % POINTS).collect();
+            known.compare(&indices, &known.layout, &format!("a batch of {count} points"), differences)?;
         }
         Ok(())
     })
@@ -121,7 +122,6 @@ pub(super) fn ranges(bench: &Bench) -> Judged {
 
 /// No points at all.
 pub(super) fn empty(bench: &Bench) -> Judged {
-    super::super::harness::fault_note::note_faults(bench.slate);
     bench.with(|law, instance| {
         let case = bench.good(law, instance, 1)?;
         let case = Case { count: 0, ..case };
@@ -154,25 +154,36 @@ const LARGE: usize = 1_000_000;
 /// Different points in it: no power of two, so that a remainder meets all of them.
 const DIFFERENT: usize = 61;
 
+/// As many points as there is time for, by the time of a smaller batch.
+fn affordable(bench: &Bench, law: &Law<'_>, instance: &Instance<'_>, case: &Case) -> usize {
+    let mut call = Call::new(&law.about, &case.repeated(4096), &Layout::plain(&law.about));
+    call.evaluate(instance);
+    let start = std::time::Instant::now();
+    call.repeat(instance);
+    let each = start.elapsed().as_secs_f64() / 4096.0;
+    ((0.5 * bench.budget().as_secs_f64() / each) as usize).clamp(4096, LARGE)
+}
+
 /// A batch of a million points.
 pub(super) fn large(bench: &Bench) -> Judged {
     bench.with(|law, instance| {
         let case = bench.good(law, instance, DIFFERENT)?;
         let known = Known::of(law, instance, case, Asked::values(&law.about))?;
-        let case = known.case.repeated(LARGE);
-        bench.label("a batch of 1e6 points");
+        let count = affordable(bench, law, instance, &known.case);
+        let case = known.case.repeated(count);
+        bench.label(&format!("a batch of {count} points"));
         let mut call = Call::new(&law.about, &case, &known.layout);
         let answers = call.answers(instance);
-        still_good(&law.about, &case, &answers, "a batch of 1e6 points")?;
+        still_good(&law.about, &case, &answers, &format!("a batch of {count} points"))?;
         let mut differences = Differences::default();
-        for point in 0..LARGE {
+        for point in 0..count {
             let expected = &known.single[point % DIFFERENT];
             // Most are the same, and a whole comparison takes its time.
             if expected.increment.to_bits() == answers.increment[point].to_bits() && point % DIFFERENT != 0 {
                 continue;
             }
             differences.note(expected.difference(&answers.at(point)), || {
-                let what = format!("point {point} of a batch of 1e6 answers otherwise than alone");
+                let what = format!("point {point} of a batch of {count} answers otherwise than alone");
                 Finding::new(what).at(case.named(&law.about, point))
             });
         }

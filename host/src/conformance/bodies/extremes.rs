@@ -116,7 +116,7 @@ pub(super) fn extremes(bench: &Bench) -> Judged {
                 tried(law, instance, &changed, &what)?;
                 tries += 1;
             }
-            if value >= 0.0 && value.is_finite() {
+            if value > 0.0 && value.is_finite() {
                 let mut changed = case.clone();
                 changed.numbers.dt = value;
                 tried(law, instance, &changed, &format!("dt {text} has no answer and no status"))?;
@@ -127,9 +127,12 @@ pub(super) fn extremes(bench: &Bench) -> Judged {
     })
 }
 
-/// The quantities of a list that may have this value.
+/// The quantities of a list that may have this value, where it is not one of their bounds.
 fn allowing(quantities: &[Quantity], value: f64) -> impl Iterator<Item = (usize, &Quantity)> {
-    quantities.iter().enumerate().filter(move |(_, quantity)| quantity.allows(value))
+    let inside = move |quantity: &Quantity| {
+        quantity.allows(value) && value != quantity.minimum && value != quantity.maximum
+    };
+    quantities.iter().enumerate().filter(move |(_, quantity)| inside(quantity))
 }
 
 /// Values at the bounds of a quantity, just inside of them, and simple ones where it has none.

@@ -4,7 +4,7 @@ use std::ffi::CString;
 
 use wearlaw_plugin_api::abi;
 
-use super::super::harness::call::{Asked, Call, Layout};
+use super::super::harness::call::{Call, Layout};
 use super::super::harness::fault_note::note_faults;
 use super::super::harness::points::Case;
 use super::super::harness::sample::Sampler;
@@ -13,7 +13,8 @@ use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::bench::{Bench, POINTS};
 use super::extremes::is_unit_vector;
-use crate::law::LawDescriptor;
+use crate::law::fields::Shape;
+use crate::law::{Field, LawDescriptor};
 
 /// Label of the first stage: what fails here fails always, and other checks say nothing.
 pub(crate) const ORDINARY: &str = "ordinary inputs";
@@ -103,25 +104,54 @@ fn stages(bench: &Bench, law: &Law<'_>, instance: &Instance<'_>) -> Judged {
         Case::new(numbers, constants, points)
     });
     let mut calls = 0;
-    for asked in Asked::ways(about) {
-        let layout = Layout { asked, ..Layout::plain(about) };
-        for case in [several.clone(), several.single(0), several.repeated(5 * POINTS + 3)] {
-            Call::new(about, &case, &layout).evaluate(instance);
-            calls += 1;
-        }
+    // No pointer is NULL, so that a law that follows one which may be is found by its own check.
+    let layout = Layout { text: Some(256), ..Layout::everything(about) };
+    for case in [several.clone(), several.single(0), several.repeated(5 * POINTS + 3)] {
+        Call::new(about, &case, &layout).evaluate(instance);
+        calls += 1;
     }
     bench.label(PROVOKING);
     let empty = Case { points: several.points.clone(), count: 0, ..several.clone() };
-    Call::new(about, &empty, &Layout::plain(about)).evaluate(instance);
+    Call::new(about, &empty, &layout).evaluate(instance);
     for case in odd_cases(&mut sampler, about, 100) {
-        for asked in Asked::ways(about) {
-            let layout = Layout { asked, text: Some(256), ..Layout::plain(about) };
-            Call::new(about, &case, &layout).evaluate(instance);
-            calls += 1;
-        }
+        Call::new(about, &case, &layout).evaluate(instance);
+        calls += 1;
     }
+    let points = search(bench, law, instance, &several, &mut sampler);
     let note = if refused { ", none of the ordinary ones answered" } else { "" };
-    Ok(Verdict::Pass(Some(format!("{calls} calls{note}"))))
+    Ok(Verdict::Pass(Some(format!("{calls} calls, {points} random points{note}"))))
+}
+
+/// Random points that are tried in full, and with `--quick`.
+const SEARCHED: usize = 6 << 20;
+const SEARCHED_QUICKLY: usize = 1 << 18;
+/// Points of a batch of them.
+const BATCH: usize = 1 << 16;
+
+/// Looks for a point in a million, in large batches whose scalar fields are different at every point.
+fn search(
+    bench: &Bench,
+    law: &Law<'_>,
+    instance: &Instance<'_>,
+    several: &Case,
+    sampler: &mut Sampler<'_>,
+) -> usize {
+    let about = &law.about;
+    let scalars: Vec<Field> = about.fields().iter().filter(|field| field.shape() == Shape::Scalar).collect();
+    let wanted = if bench.task.quick { SEARCHED_QUICKLY } else { SEARCHED };
+    let mut call = Call::new(about, &several.single(0).repeated(BATCH), &Layout::everything(about));
+    let base = several.point(0).clone();
+    let mut done = 0;
+    while done < wanted && bench.has_time() {
+        for field in &scalars {
+            let value = base.scalar(*field);
+            let values: Vec<f64> = (0..BATCH).map(|_| value * sampler.random.between(0.5, 2.0)).collect();
+            call.set_field(*field, values);
+        }
+        call.evaluate(instance);
+        done += BATCH;
+    }
+    done
 }
 
 /// Whether options that make no sense are refused with a text, or of no effect.

@@ -1,6 +1,6 @@
 //! The floating-point environment: what the library found wrong in each phase of its life.
 
-use super::super::harness::call::{Asked, Layout};
+use super::super::harness::call::{Call, Layout};
 use super::super::harness::subject::Library;
 use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
@@ -8,6 +8,9 @@ use super::super::slate::Phase;
 use super::bench::{Bench, POINTS, ask};
 use super::faults::odd_cases;
 use crate::law::float_env::FloatEnv;
+
+/// Calls that are made in a row.
+const MANY: usize = 30_000;
 
 /// The verdict on what was changed in some phases.
 fn judge(library: &Library, phases: &[Phase], hint: &str) -> Judged {
@@ -29,7 +32,7 @@ pub(super) fn load(bench: &Bench) -> Judged {
     judge(&library, &[Phase::Opening, Phase::Entry, Phase::Describing], hint)
 }
 
-/// Runs an instance through good and odd inputs, in every way of asking.
+/// Runs an instance through good and odd inputs, and through many calls.
 fn exercise(bench: &Bench, library: &Library) -> Judged<()> {
     let law = library.law(&bench.task)?;
     let instance = law.instance(&bench.task)?;
@@ -37,10 +40,15 @@ fn exercise(bench: &Bench, library: &Library) -> Judged<()> {
     let mut sampler = bench.sampler(&law, &known);
     let good = sampler.good(&instance, POINTS);
     for case in good.into_iter().chain(odd_cases(&mut sampler, &law.about, 40)) {
-        for asked in Asked::ways(&law.about) {
-            ask(&law.about, &instance, &case, &Layout { asked, text: Some(256), ..Layout::plain(&law.about) });
-        }
+        ask(&law.about, &instance, &case, &Layout { text: Some(256), ..Layout::everything(&law.about) });
     }
+    // What happens once in many calls.
+    let Some(good) = sampler.good(&instance, 1) else { return Ok(()) };
+    let mut call = Call::new(&law.about, &good, &Layout::everything(&law.about));
+    bench.label("many calls");
+    (0..MANY).take_while(|_| bench.has_time()).for_each(|_| {
+        call.repeat(&instance);
+    });
     Ok(())
 }
 

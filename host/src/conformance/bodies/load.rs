@@ -1,12 +1,13 @@
 //! What loading and unloading does to the program.
 #![allow(unsafe_code)] // reason: asks the C library to write out what it holds back.
 
+use std::panic::resume_unwind;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
 use super::super::harness::call::Layout;
-use super::super::harness::subject::{Law, Library, chars_text};
-use super::super::harness::surroundings::{Surroundings, threads as count_threads};
+use super::super::harness::subject::{Library, chars_text};
+use super::super::harness::surroundings::{Surroundings, processes, threads as count_threads};
 use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::bench::{Bench, POINTS, ask};
@@ -76,19 +77,25 @@ pub(super) fn opens(bench: &Bench) -> Judged {
     Ok(Verdict::Pass(note))
 }
 
-/// Loads three times and compares what the library says of itself.
+/// Loads three times, each time in a thread that ends when the library is gone, and compares what it says of itself.
 pub(super) fn twice(bench: &Bench) -> Judged {
     bench.needs_file()?;
-    let describe = || -> Judged<LawDescriptor> {
+    let describe = || -> Judged<Option<LawDescriptor>> {
         let library = bench.open()?;
-        let about = library.law(&bench.task)?.about.clone();
+        library.tables()?;
+        evaluate(bench, &library, 0)?;
+        // What is malformed is told by the checks of the descriptor.
+        let about = library.law(&bench.task).ok().map(|law| law.about.clone());
         library.close();
         Ok(about)
     };
-    let first = describe()?;
+    let in_a_thread = |time: &str| {
+        bench.label(&format!("the library loaded the {time} time"));
+        std::thread::scope(|scope| scope.spawn(describe).join().unwrap_or_else(|panic| resume_unwind(panic)))
+    };
+    let first = in_a_thread("first")?;
     for time in ["second", "third"] {
-        let again = describe()?;
-        if again != first {
+        if in_a_thread(time)? != first {
             let what = format!("the library says another thing of itself when it is loaded the {time} time");
             return broken(Finding::new(what));
         }
@@ -100,20 +107,22 @@ pub(super) fn twice(bench: &Bench) -> Judged {
 fn live(bench: &Bench) -> Judged<()> {
     bench.needs_file()?;
     let library = bench.open()?;
-    evaluate(bench, &library)?;
+    evaluate(bench, &library, 20)?;
     library.close();
     Ok(())
 }
 
-fn evaluate(bench: &Bench, library: &Library) -> Judged<()> {
-    let law: Law<'_> = library.law(&bench.task)?;
-    // A law that does not start without options is loaded and unloaded all the same.
+/// Evaluates good inputs and, if any are wanted, odd ones.
+fn evaluate(bench: &Bench, library: &Library, odd: usize) -> Judged<()> {
+    // A law that is malformed, or does not start without options, is loaded and unloaded all the same.
+    let Ok(law) = library.law(&bench.task) else { return Ok(()) };
     let Ok(instance) = law.instance(&bench.task) else { return Ok(()) };
     let known = bench.known_constants(&law);
     let mut sampler = bench.sampler(&law, &known);
     let good = sampler.good(&instance, POINTS);
-    for case in good.into_iter().chain(odd_cases(&mut sampler, &law.about, 20)) {
-        ask(&law.about, &instance, &case, &Layout { text: Some(256), ..Layout::plain(&law.about) });
+        let odd = if odd == 0 { Vec::new() } else { odd_cases(&mut sampler, &law.about, odd) };
+    for case in good.into_iter().chain(odd) {
+        ask(&law.about, &instance, &case, &Layout { text: Some(256), ..Layout::everything(&law.about) });
     }
     Ok(())
 }
@@ -180,24 +189,39 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Libraries that keep their threads for the next parallel region.
 const KEEPING: [&str; 3] = ["libgomp", "libomp", "libiomp5"];
 
-/// Whether loading starts threads, or unloading leaves some.
+/// Whether loading starts threads or processes, or unloading leaves some.
 pub(super) fn threads(bench: &Bench) -> Judged {
     let path = bench.needs_file()?;
-    let before = count_threads();
+    let (before, processes_before) = (count_threads(), processes());
     let library = bench.open()?;
     library.tables()?;
-    let loaded = count_threads();
-    if loaded > before {
-        let finding = Finding::new("loading starts threads");
-        return broken(finding.with(format!("{} more", loaded - before), "none before an instance is created"));
+    let (loaded, processes_loaded) = (count_threads(), processes());
+    if loaded > before || processes_loaded > processes_before {
+        let finding = Finding::new("loading starts threads or processes");
+        let (threads, processes) = (loaded - before, processes_loaded - processes_before);
+        let found = format!("{threads} more threads, {processes} more processes");
+        return broken(finding.with(found, "none before an instance is created"));
     }
-    evaluate(bench, &library)?;
+    evaluate(bench, &library, 20)?;
+    let settled = || {
+        let end = Instant::now() + PATIENCE;
+        while (count_threads() > before || processes() > processes_before) && Instant::now() < end {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        (count_threads().saturating_sub(before), processes().saturating_sub(processes_before))
+    };
+    let (threads, left) = settled();
+    if left > 0 {
+        let finding = Finding::new("processes are left when the instance is destroyed");
+        return broken(finding.with(format!("{left} more"), "as many as before"));
+    }
+    if threads == 0 {
+        return Ok(Verdict::Pass(None));
+    }
+    // Threads of the library itself have to end with it.
+    bench.label("the library unloaded while threads of it run");
     library.close();
-    let end = Instant::now() + PATIENCE;
-    while count_threads() > before && Instant::now() < end {
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    let left = count_threads().saturating_sub(before);
+    let (left, _) = settled();
     if left == 0 {
         // One that runs on in code that is gone would crash about now.
         std::thread::sleep(Duration::from_millis(5));

@@ -1,7 +1,7 @@
 //! Instances side by side, and one instance from several threads at once.
 #![allow(unsafe_code)] // reason: a forked process gives the answers of an instance that is alone.
 
-use std::io::{Read, Write};
+use std::io::{Read, Seek, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Barrier;
 use std::time::{Duration, Instant};
@@ -13,6 +13,7 @@ use super::super::harness::sample::Sampler;
 use super::super::harness::subject::{Instance, Law};
 use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
+use super::super::slate::memory_file;
 use super::bench::{Bench, Differences, POINTS, ask};
 use crate::law::LawDescriptor;
 
@@ -39,26 +40,26 @@ fn layout(law: &LawDescriptor) -> Layout {
 }
 
 /// What `work` gives in a process of its own, forked off before the library is loaded here; empty if it gives nothing.
+///
+/// It is left in a file: a pipe would stay open as long as a process that the law starts.
 fn in_child(work: impl FnOnce() -> Vec<u8>) -> Vec<u8> {
-    let (mut from, mut to) = match std::io::pipe() {
-        Ok(pipe) => pipe,
-        Err(error) => panic!("no pipe could be made: {error}"),
+    let mut file = match memory_file() {
+        Ok(file) => file,
+        Err(error) => panic!("no file in memory could be made: {error}"),
     };
     // SAFETY: this process has one thread here, so the child may do whatever the parent may.
     let child = unsafe { libc::fork() };
     if child == 0 {
-        drop(from);
         // A panic must not unwind into the parent's code.
         let bytes = catch_unwind(AssertUnwindSafe(work)).unwrap_or_default();
-        let _ = to.write_all(&bytes);
+        let _ = file.write_all(&bytes);
         // SAFETY: ends the child at once; what it shares with the parent is left alone.
         unsafe { libc::_exit(0) };
     }
-    drop(to);
-    let mut bytes = Vec::new();
-    let read = from.read_to_end(&mut bytes);
     // SAFETY: waits for the child made above; the status is not wanted.
     unsafe { libc::waitpid(child, std::ptr::null_mut(), 0) };
+    let mut bytes = Vec::new();
+    let read = file.rewind().and_then(|()| file.read_to_end(&mut bytes));
     if read.is_ok() { bytes } else { Vec::new() }
 }
 

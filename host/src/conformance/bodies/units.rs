@@ -55,22 +55,38 @@ fn metres(law: &Law<'_>, instance: &Instance<'_>, case: &Case, sizes: &UnitSizes
     answers.is_good().then(|| answers.increment[0] * sizes.metre)
 }
 
-/// The factor of the closing constant that makes one point come out; none if there is none.
-fn fitted(law: &Law<'_>, instance: &Instance<'_>, case: &Case, sizes: &UnitSizes, wanted: f64) -> Option<f64> {
+/// What came of the search for the factor of the closing constant.
+enum Fit {
+    Factor(f64),
+    /// The numbers leave what a double can hold on the way: these units say nothing.
+    Beyond,
+    /// No factor makes the point come out.
+    None,
+}
+
+/// The factor of the closing constant that makes one point come out.
+fn fitted(law: &Law<'_>, instance: &Instance<'_>, case: &Case, sizes: &UnitSizes, wanted: f64) -> Fit {
     let mut closing = 1.0;
     for _ in 0..20 {
-        let found = metres(law, instance, &converted(case, &law.about, sizes, closing), sizes)?;
-        if agree(found, wanted, 1e-13) {
-            return Some(closing);
+        let changed = converted(case, &law.about, sizes, closing);
+        let values = changed.constants.iter().zip(&case.constants);
+        let lost = values.into_iter().any(|(value, was)| !value.is_finite() || (value.abs() < f64::MIN_POSITIVE && *was != 0.0));
+        let Some(found) = metres(law, instance, &changed, sizes).filter(|_| !lost) else { return Fit::Beyond };
+        if agree(found, wanted, 1e-12) {
+            return Fit::Factor(closing);
         }
         let next = closing * wanted / found;
-        if !next.is_finite() || next == closing || next <= 0.0 {
-            return None;
+        if !next.is_finite() || next <= 0.0 {
+            return Fit::Beyond;
         }
         closing = next;
     }
-    let found = metres(law, instance, &converted(case, &law.about, sizes, closing), sizes)?;
-    agree(found, wanted, 1e-12).then_some(closing)
+    Fit::None
+}
+
+/// True for constants whose powers stay within what a double can hold.
+fn is_moderate(case: &Case) -> bool {
+    case.constants.iter().all(|value| *value == 0.0 || (1e-100..1e100).contains(&value.abs()))
 }
 
 /// Whether the law states any unit at all.
@@ -101,13 +117,17 @@ pub(super) fn units(bench: &Bench) -> Judged {
                     let wearing = (0..case.count).rev().find_map(|i| wanted[i].filter(|w| *w != 0.0).map(|w| (i, w)));
                     let Some((at, depth)) = wearing else { continue };
                     match fitted(law, instance, &case.single(at), &sizes, depth) {
-                        Some(factor) => closing = factor,
-                        None => return broken(unfitted(law, &case.single(at), &sizes)),
+                        Fit::Factor(factor) => closing = factor,
+                        Fit::Beyond => continue,
+                        Fit::None => return broken(unfitted(law, &case.single(at), &sizes)),
                     }
                 }
                 for (index, depth) in wanted.iter().enumerate() {
                     let Some(depth) = *depth else { continue };
                     let single = converted(&case.single(index), about, &sizes, closing);
+                    if !is_moderate(&single) || !is_moderate(&case.single(index)) {
+                        continue;
+                    }
                     let found = metres(law, instance, &single, &sizes);
                     compared += 1;
                     if found.is_some_and(|found| agree(found, depth, TOLERANCE)) {
@@ -121,7 +141,7 @@ pub(super) fn units(bench: &Bench) -> Judged {
             }
         }
         if compared == 0 {
-            return skip("the law refused every ordinary input that was tried");
+            return skip("the law refused every ordinary input that was tried, or its numbers leave the range of a double");
         }
         Ok(Verdict::Pass(Some(format!("{compared} points in other units compared"))))
     })

@@ -55,6 +55,11 @@ impl Asked {
         }
     }
 
+    /// Everything that the law can write, and statuses: no pointer is NULL.
+    pub(crate) fn everything(law: &LawDescriptor) -> Self {
+        Self { status: true, ..Self::values(law) }
+    }
+
     /// Every way of asking that hosts use: with and without derivative, with and without statuses.
     pub(crate) fn ways(law: &LawDescriptor) -> Vec<Self> {
         let all = Self::values(law);
@@ -113,17 +118,28 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// As [`Layout::plain`], with everything asked for.
+    pub(crate) fn everything(law: &LawDescriptor) -> Self {
+        Self { asked: Asked::everything(law), ..Self::plain(law) }
+    }
+}
+
 /// More points than this, and fields that the law does not declare are given once for all.
 const MANY: usize = 4096;
+/// Most points of a batch that are called one by one to find the one that matters.
+const SEARCHED: usize = 1 << 17;
 /// What lies between the values of a column: a law that takes it for a value gives a NaN.
 const BETWEEN: f64 = f64::NAN;
 
 /// A call, ready to be made.
 pub(crate) struct Call {
     case: Case,
+    /// Values of scalar fields that are different from those of the case.
+    changed: Vec<(Field, Vec<f64>)>,
     law: LawDescriptor,
     layout: Layout,
-    _arrays: Arrays,
+    _arrays: [Arrays; 2],
     view: *mut abi::View,
     output: *mut abi::Output,
     outputs: Outputs,
@@ -209,30 +225,64 @@ impl Call {
             text_size: layout.text.unwrap_or(0) as i64,
             d_pressure: outputs.d_pressure,
         };
-        let view = put(&mut arrays, "the view", view, true);
-        let output = put(&mut arrays, "the output", output, false);
+        // What lies behind a struct is looked at with structs of other sizes.
+        let room = if layout.room == Room::GuardBehind { Room::Plain } else { layout.room };
+        let mut structs = Arrays::new(room, 0);
+        let view = put(&mut structs, "the view", view, true);
+        let output = put(&mut structs, "the output", output, false);
+        if layout.sealed {
+            structs.seal();
+        }
         if layout.sealed || layout.state_sealed {
             arrays.seal();
         }
-        Self { case: case.clone(), law: law.clone(), layout: *layout, _arrays: arrays, view, output, outputs }
+        Self { case: case.clone(), changed: Vec::new(), law: law.clone(), layout: *layout, _arrays: [arrays, structs], view, output, outputs }
     }
 
     /// Notes the inputs on the slate and calls the law.
     pub(crate) fn evaluate(&mut self, instance: &Instance<'_>) -> i32 {
         let slate = instance.law.library.slate;
         let number = slate.count_call(self.case.count);
-        slate.input(lines(&self.case, &self.law).as_bytes());
+        slate.input(lines(&self.single(0), &self.law).as_bytes());
         if narrowed(number) && self.case.count > 1 {
-            slate.single_point();
-            for point in 0..self.case.count.min(MANY) {
-                let single = self.case.single(point);
+            slate.points(1);
+            for point in 0..self.case.count.min(SEARCHED) {
+                let single = self.single(point);
                 let mut call = Call::new(&self.law, &single, &self.layout);
                 slate.input(lines(&single, &self.law).as_bytes());
                 call.repeat(instance);
             }
-            slate.input(lines(&self.case, &self.law).as_bytes());
+            slate.points(self.case.count);
+            slate.input(lines(&self.single(0), &self.law).as_bytes());
         }
         self.repeat(instance)
+    }
+
+    /// One point of the call, with the values that its columns have now.
+    fn single(&self, point: usize) -> Case {
+        if self.case.count == 0 {
+            return self.case.clone();
+        }
+        let mut single = self.case.single(point);
+        for (field, values) in &self.changed {
+            single.points[0].set(*field, 0, values[point]);
+        }
+        single
+    }
+
+    /// Changes the values of a scalar field that was given per point.
+    ///
+    /// # Panics
+    /// If there are not as many as points.
+    pub(crate) fn set_field(&mut self, field: Field, values: Vec<f64>) {
+        assert_eq!(values.len(), self.case.count);
+        // SAFETY: the view lives as long as `self`; its column of this field was made by `new`.
+        let column = unsafe { column_of(&mut *self.view, field).map(|column| *column) };
+        let Some(column) = column.filter(|column| column.step == 1) else { return };
+        // SAFETY: a column with step 1 that `new` made has one double for each point, in an array of this call.
+        unsafe { column.ptr.cast_mut().copy_from_nonoverlapping(values.as_ptr(), values.len()) };
+        self.changed.retain(|(other, _)| *other != field);
+        self.changed.push((field, values));
     }
 
     /// Calls the law again without a note: for loops.
@@ -308,6 +358,7 @@ fn narrowed(number: u64) -> bool {
     NARROW.load(std::sync::atomic::Ordering::Relaxed) == number
 }
 
+/// The inputs at the first point, a line each.
 fn lines(case: &Case, law: &LawDescriptor) -> String {
     case.named(law, 0).iter().fold(String::new(), |text, (name, value)| text + name + "\t" + value + "\n")
 }

@@ -27,7 +27,7 @@ impl<'l> Sampler<'l> {
 
     /// Constants within their bounds, of an ordinary size.
     pub(crate) fn constants(&mut self) -> Vec<f64> {
-        if !self.known.is_empty() && self.random.unit() < 0.75 {
+        if !self.known.is_empty() && self.random.unit() < 0.5 {
             return self.known[self.random.below(self.known.len())].clone();
         }
         let law = self.law;

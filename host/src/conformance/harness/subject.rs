@@ -2,6 +2,7 @@
 #![allow(unsafe_code)] // reason: opens a library and calls its functions through the C ABI.
 
 use std::ffi::{CStr, CString, c_char, c_void};
+use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
@@ -22,8 +23,8 @@ pub(crate) struct Library {
     entry: abi::EntryFn,
     pub(crate) slate: &'static Slate,
     floats: Mutex<Vec<(Phase, String)>>,
-    // Closed in `drop`, where that is noted.
-    file: Option<LibraryFile>,
+    /// Stays open to the end of the process unless it is closed: what goes wrong then is one check's finding and not all's.
+    file: ManuallyDrop<Option<LibraryFile>>,
 }
 
 impl Library {
@@ -31,7 +32,7 @@ impl Library {
     pub(crate) fn open(task: &Task, slate: &'static Slate) -> Judged<Self> {
         match &task.source {
             Source::Embedded(name) => match embedded::function(name) {
-                Some(entry) => Ok(Self { entry, slate, floats: Mutex::default(), file: None }),
+                Some(entry) => Ok(Self { entry, slate, floats: Mutex::default(), file: ManuallyDrop::new(None) }),
                 None => broken(Finding::new(format!("this program holds no law `{name}`"))),
             },
             Source::File(path) => Self::open_file(path, slate),
@@ -61,7 +62,7 @@ impl Library {
         };
         // SAFETY: by the ABI, a symbol of this name is a function of this type.
         let entry = unsafe { std::mem::transmute::<*const c_void, abi::EntryFn>(address) };
-        Ok(Self { entry, slate, floats: Mutex::new(floats), file: Some(file) })
+        Ok(Self { entry, slate, floats: Mutex::new(floats), file: ManuallyDrop::new(Some(file)) })
     }
 
     /// Calls the entry with a table of the caller's.
@@ -155,8 +156,9 @@ impl Library {
     }
 
     /// Closes the library, which runs its destructors.
-    pub(crate) fn close(self) {
-        drop(self);
+    pub(crate) fn close(mut self) {
+        let file = self.file.take();
+        watched(self.slate, Phase::Closing, &mut Vec::new(), || drop(file));
     }
 
     fn watched<T>(&self, phase: Phase, work: impl FnOnce() -> T) -> T {
@@ -173,14 +175,6 @@ impl Library {
             }
         }
         result
-    }
-}
-
-impl Drop for Library {
-    fn drop(&mut self) {
-        let file = self.file.take();
-        let mut floats = Vec::new();
-        watched(self.slate, Phase::Closing, &mut floats, || drop(file));
     }
 }
 

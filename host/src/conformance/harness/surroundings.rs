@@ -4,6 +4,8 @@
 use std::ffi::{CStr, OsString};
 use std::path::PathBuf;
 
+use crate::law::isolate::process::descendants;
+
 /// What a law must leave as it found it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Surroundings {
@@ -58,9 +60,15 @@ pub(crate) fn threads() -> usize {
     std::fs::read_dir("/proc/self/task").map_or(0, Iterator::count)
 }
 
-/// Number of files this process has open.
+/// Number of files this process has open, of the first few thousand; takes no memory itself.
 pub(crate) fn open_files() -> usize {
-    std::fs::read_dir("/proc/self/fd").map_or(0, Iterator::count)
+    // SAFETY: takes integers; a number that is no open file is an error and nothing else.
+    (0..4096).filter(|descriptor| unsafe { libc::fcntl(*descriptor, libc::F_GETFD) } >= 0).count()
+}
+
+/// Number of processes that this one has started, or that it has inherited from those, and that are not gone.
+pub(crate) fn processes() -> usize {
+    descendants(std::process::id() as libc::pid_t).len()
 }
 
 fn locale() -> String {

@@ -13,7 +13,7 @@ pub fn list_text() -> String {
         let _ = writeln!(text, "{}", group.name());
         for facts in Check::ALL.iter().map(|check| check.facts()).filter(|facts| facts.group == group) {
             let mark = if facts.quick { '*' } else { ' ' };
-            let _ = writeln!(text, "  {mark} {:<28}  {}", facts.name, facts.description);
+            let _ = writeln!(text, "  {mark} {:<29}  {}", facts.name, facts.description);
         }
     }
     let quick = Check::ALL.iter().filter(|check| check.facts().quick).count();

@@ -7,7 +7,7 @@ use super::super::outcome::{CheckResult, Finding, Outcome};
 use super::super::{CheckOptions, Report};
 
 /// Width of the longest name of a check, and of an outcome.
-const NAME: usize = 28;
+const NAME: usize = 29;
 const OUTCOME: usize = 9;
 /// Width of the labels under a failed check.
 const LABEL: usize = 8;

@@ -30,5 +30,6 @@ WL_POINT {
         double q = in->pressure / (1.0 + in->pressure / c->p_half);
         out->increment = c->k * q * in->slip;
     } /* else: no pressure, no wear; the increment is preset to 0 */
-    return WL_OK;
+    /* What has no answer gets a status, never a silent NaN or infinity. */
+    return isfinite(out->increment) ? WL_OK : WL_OUT_OF_DOMAIN;
 }

@@ -7,6 +7,8 @@
  * beyond that more pressure hardly wears more. Put your own equation in its place.
  */
 
+#include <cmath>
+
 #include "wearlaw.hpp" // makes the loop over the points, the description and the entry
 
 using namespace wearlaw;
@@ -32,7 +34,8 @@ struct TheLaw : Law<TheLaw> {
             double q = in.pressure / (1.0 + in.pressure / c.p_half);
             out.increment = c.k * q * in.slip;
         } // else: no pressure, no wear; the increment is preset to 0
-        return WL_OK;
+        // What has no answer gets a status, never a silent NaN or infinity.
+        return std::isfinite(out.increment) ? WL_OK : WL_OUT_OF_DOMAIN;
     }
 };
 

@@ -36,7 +36,8 @@ contains
       q = in%pressure / (1 + in%pressure / c(2))
       out%increment = c(1) * q * in%slip
     end if ! else: no pressure, no wear; the increment is preset to 0
-    status = WL_OK
+    ! What has no answer gets a status, never a silent NaN or infinity.
+    status = merge(WL_OK, WL_OUT_OF_DOMAIN, abs(out%increment) <= huge(out%increment))
   end function point
 
   include 'wearlaw_point.inc' ! makes the loop over the points, the description and the entry

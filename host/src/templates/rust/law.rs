@@ -47,7 +47,8 @@ impl PointLaw for TheLaw {
             let q = at.pressure / (1.0 + at.pressure / p_half);
             out.increment = k * q * at.slip;
         } // else: no pressure, no wear; the increment is preset to 0
-        Status::Ok
+        // What has no answer gets a status, never a silent NaN or infinity.
+        if out.increment.is_finite() { Status::Ok } else { Status::OutOfDomain }
     }
 }
 
