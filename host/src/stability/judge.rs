@@ -225,6 +225,7 @@ mod tests {
             assert!((found - amplitude).abs() < 0.01, "{found} against {amplitude}");
             assert_eq!(ripple.is_clear(&cells, &pressure), amplitude == 0.0);
         }
+        let cells = Cells { dimension: 2, counts: [4, 1], spacing: [1.0, 1.0] };
         let tiny = Ripple::new(&cells, &[true, true, true, false], &[1.0, -1.0, 1.0, 0.0]);
         assert!(!tiny.is_clear(&cells, &[0.0; 4]));
         assert_eq!(tiny.amplitude(&cells, &[1.0, -1.0, 1.0, 0.0]), 0.0);
