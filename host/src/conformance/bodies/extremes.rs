@@ -129,9 +129,8 @@ pub(super) fn extremes(bench: &Bench) -> Judged {
 
 /// The quantities of a list that may have this value, where it is not one of their bounds.
 fn allowing(quantities: &[Quantity], value: f64) -> impl Iterator<Item = (usize, &Quantity)> {
-    let inside = move |quantity: &Quantity| {
-        quantity.allows(value) && value != quantity.minimum && value != quantity.maximum
-    };
+    let inside =
+        move |quantity: &Quantity| quantity.allows(value) && value != quantity.minimum && value != quantity.maximum;
     quantities.iter().enumerate().filter(move |(_, quantity)| inside(quantity))
 }
 

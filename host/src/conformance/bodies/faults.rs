@@ -129,13 +129,7 @@ const SEARCHED_QUICKLY: usize = 1 << 18;
 const BATCH: usize = 1 << 16;
 
 /// Looks for a point in a million, in large batches whose scalar fields are different at every point.
-fn search(
-    bench: &Bench,
-    law: &Law<'_>,
-    instance: &Instance<'_>,
-    several: &Case,
-    sampler: &mut Sampler<'_>,
-) -> usize {
+fn search(bench: &Bench, law: &Law<'_>, instance: &Instance<'_>, several: &Case, sampler: &mut Sampler<'_>) -> usize {
     let about = &law.about;
     let scalars: Vec<Field> = about.fields().iter().filter(|field| field.shape() == Shape::Scalar).collect();
     let wanted = if bench.task.quick { SEARCHED_QUICKLY } else { SEARCHED };

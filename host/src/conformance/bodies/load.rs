@@ -120,7 +120,7 @@ fn evaluate(bench: &Bench, library: &Library, odd: usize) -> Judged<()> {
     let known = bench.known_constants(&law);
     let mut sampler = bench.sampler(&law, &known);
     let good = sampler.good(&instance, POINTS);
-        let odd = if odd == 0 { Vec::new() } else { odd_cases(&mut sampler, &law.about, odd) };
+    let odd = if odd == 0 { Vec::new() } else { odd_cases(&mut sampler, &law.about, odd) };
     for case in good.into_iter().chain(odd) {
         ask(&law.about, &instance, &case, &Layout { text: Some(256), ..Layout::everything(&law.about) });
     }

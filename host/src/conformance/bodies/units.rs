@@ -70,7 +70,9 @@ fn fitted(law: &Law<'_>, instance: &Instance<'_>, case: &Case, sizes: &UnitSizes
     for _ in 0..20 {
         let changed = converted(case, &law.about, sizes, closing);
         let values = changed.constants.iter().zip(&case.constants);
-        let lost = values.into_iter().any(|(value, was)| !value.is_finite() || (value.abs() < f64::MIN_POSITIVE && *was != 0.0));
+        let lost = values
+            .into_iter()
+            .any(|(value, was)| !value.is_finite() || (value.abs() < f64::MIN_POSITIVE && *was != 0.0));
         let Some(found) = metres(law, instance, &changed, sizes).filter(|_| !lost) else { return Fit::Beyond };
         if agree(found, wanted, 1e-12) {
             return Fit::Factor(closing);
@@ -141,7 +143,9 @@ pub(super) fn units(bench: &Bench) -> Judged {
             }
         }
         if compared == 0 {
-            return skip("the law refused every ordinary input that was tried, or its numbers leave the range of a double");
+            return skip(
+                "the law refused every ordinary input that was tried, or its numbers leave the range of a double",
+            );
         }
         Ok(Verdict::Pass(Some(format!("{compared} points in other units compared"))))
     })

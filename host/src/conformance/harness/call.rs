@@ -236,7 +236,16 @@ impl Call {
         if layout.sealed || layout.state_sealed {
             arrays.seal();
         }
-        Self { case: case.clone(), changed: Vec::new(), law: law.clone(), layout: *layout, _arrays: [arrays, structs], view, output, outputs }
+        Self {
+            case: case.clone(),
+            changed: Vec::new(),
+            law: law.clone(),
+            layout: *layout,
+            _arrays: [arrays, structs],
+            view,
+            output,
+            outputs,
+        }
     }
 
     /// Notes the inputs on the slate and calls the law.
