@@ -151,6 +151,7 @@ impl MemoryLaw for Work {
 
 impl Work {
     /// A law of one constant that reads these fields, to be made into another.
+    #[allow(dead_code)] // not every test target makes other laws
     pub fn descriptor_with(reads: &[Field]) -> LawDescriptor {
         law("other", reads, &[], &["k"], &[])
     }

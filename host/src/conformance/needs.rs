@@ -115,7 +115,7 @@ fn after(check: Check) -> &'static [Check] {
         BatchUniformFields | BatchPerPointConstants => &[BatchSingles, BatchOdd],
         BatchStridedFields => &[BatchSingles, BatchOdd, BatchUniformFields],
         BatchStridedConstants => &[BatchSingles, BatchOdd, BatchPerPointConstants],
-        StateAgain => &[StateStart, StateEnd],
+        StateAgain => &[StateStart, StateEnd, DeterminismRecreate],
         StateRestart => &[StateStart, StateEnd, StateAgain, DeterminismRecreate],
         DerivativePressure | DerivativeKinks => &[DerivativeAsked, ValuesFinite],
         PhysicsNonNegative | PhysicsLinearInDt | PhysicsFrame => &[ValuesFinite],

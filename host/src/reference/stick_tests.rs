@@ -1,3 +1,5 @@
+//! Tests of the limit of wear around a stick zone.
+
 use super::*;
 use crate::reference::quadrature::tanh_sinh;
 

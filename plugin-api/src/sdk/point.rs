@@ -156,7 +156,7 @@ impl<T: PointLaw> Law for T {
             answer.miss(missing);
             return answer.worst();
         }
-        if !T::STATE.is_empty() && (batch.state().is_none() || answer.state.is_none()) {
+        if !T::STATE.is_empty() && batch.state().is_none() {
             answer.say(Status::MissingInput, format_args!("the call gives no state variables"));
             return answer.worst();
         }

@@ -1,3 +1,5 @@
+//! Tests of the discrete foundation against closed forms and a fine rule of its own.
+
 use super::super::super::answer::Indenter;
 use super::super::parabola::{WornParabola, loaded_pressure};
 use super::*;
