@@ -66,6 +66,12 @@ impl Case {
         fs::write(self.folder.path().join(name), text).expect("a writable folder");
     }
 
+    /// The plan for a law, or why the scene has none; a scene that cannot be read is a fault of the test.
+    pub fn try_plan(&self, law: &dyn Evaluator) -> Result<Plan, wearlaw::plan::PlanError> {
+        let scene = Scene::parse(&self.scene, self.folder.path().join("scene.toml"), &[]);
+        Plan::new(&scene.unwrap_or_else(|error| panic!("{error:?}\n{}", self.scene)), law.descriptor())
+    }
+
     /// The plan for a law.
     pub fn plan(&self, law: &dyn Evaluator) -> Plan {
         let scene = Scene::parse(&self.scene, self.folder.path().join("scene.toml"), &[]);
@@ -75,9 +81,14 @@ impl Case {
 
     /// Runs with a law, to whatever end.
     pub fn end(&self, law: &dyn Evaluator) -> Solved {
+        self.end_on(1, law)
+    }
+
+    /// Runs with a law on so many threads, to whatever end.
+    pub fn end_on(&self, threads: usize, law: &dyn Evaluator) -> Solved {
         let plan = self.plan(law);
         let run = Run::prepare(&plan, law).unwrap_or_else(|error| panic!("{error}\n{}", self.scene));
-        let record = run.go(1, &mut Nobody);
+        let record = run.go(threads, &mut Nobody);
         let finished = matches!(record.end, End::Done | End::Stopped(_));
         let error = if finished { run.error(&record).unwrap_or_else(|error| panic!("{error}")) } else { None };
         Solved { plan, record, error }
@@ -85,7 +96,12 @@ impl Case {
 
     /// Runs with a law, to the end.
     pub fn solve(&self, law: &dyn Evaluator) -> Solved {
-        let solved = self.end(law);
+        self.solve_on(1, law)
+    }
+
+    /// Runs with a law on so many threads, to the end.
+    pub fn solve_on(&self, threads: usize, law: &dyn Evaluator) -> Solved {
+        let solved = self.end_on(threads, law);
         assert!(matches!(solved.record.end, End::Done), "{:?}\n{}", solved.record.end, self.scene);
         solved
     }

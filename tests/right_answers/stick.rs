@@ -1,0 +1,37 @@
+//! The limit of wear around a stick zone, in one backward-Euler step of huge size.
+
+use crate::solved::Solved;
+use crate::{norm, run};
+
+fn limit(cells: usize) -> Solved {
+    run(&format!(
+        "[law]\nuse = \"archard\"\nconstants = [1e-14, 1.0, 1.0, 1.0]\n\
+         [contact]\nmodel = \"halfspace\"\nmodulus = 115e9\n\
+         [grid]\nsize = [2.8e-4, 2.8e-4]\ncells = [{cells}, {cells}]\n\
+         [surface]\nshape = \"sphere\"\nradius = 10e-3\ncenter = [1.4e-4, 1.4e-4]\n\
+         [[step]]\nduration = 1e7\napproach = 1e-6\nvelocity = 1.0\nstick = 5e-5\n\
+         [integrator]\nmethod = \"implicit-euler\"\nsubsteps = 1\n[reference]\nkind = \"stick-limit\"\n"
+    ))
+}
+
+#[test]
+fn one_step_reaches_the_limit() {
+    // Cells of a0/20, a0 = 0.1 mm; the apex on a corner, where as many cells stick as the zone has area.
+    let solved = limit(56);
+    let last = *solved.record.history.last().expect("rows");
+    let load = last.load.expect("a load");
+    assert!((load / 10.54166666667 - 1.0).abs() < 0.02, "{load}");
+    assert!(norm(&solved, "load_relative") < 0.02 && norm(&solved, "value") < 0.04, "{:?}", solved.error);
+    assert!(norm(&solved, "contact_radius_cells") < 1.0, "{:?}", solved.error);
+    assert!((last.max_wear_depth / 2.965494774432e-7 - 1.0).abs() < 0.04, "{:e}", last.max_wear_depth);
+    // What slips carries next to nothing.
+    let slipping = |cell: usize| ((cell % 56) as f64 - 27.5).hypot((cell / 56) as f64 - 27.5) * 5e-6 >= 5e-5;
+    let carried = (0..56 * 56).filter(|cell| slipping(*cell)).map(|cell| solved.record.pressure[cell]).sum::<f64>();
+    assert!(carried < 1e-4 * solved.record.pressure.iter().sum::<f64>(), "{carried:e}");
+}
+
+#[test]
+fn the_error_of_the_limit_falls_with_the_cells() {
+    let [coarse, fine] = [28, 56].map(|cells| norm(&limit(cells), "value"));
+    assert!(coarse > 1.3 * fine, "{coarse:e}, {fine:e}");
+}
