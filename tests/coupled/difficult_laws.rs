@@ -174,5 +174,5 @@ fn open_points_reach_a_law_that_asks_for_them() {
     for (pressure, wear) in record.pressure.iter().zip(&record.wear) {
         assert_eq!(*wear, if *pressure > 0.0 { 0.0 } else { 1e-9 });
     }
-    assert_eq!(record.wear.iter().filter(|wear| **wear > 0.0).count() > 3, true, "{:?}", record.wear);
+    assert!(record.wear.iter().filter(|wear| **wear > 0.0).count() > 3, "{:?}", record.wear);
 }

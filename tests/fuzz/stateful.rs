@@ -20,7 +20,7 @@ const OPERATIONS: usize = 40;
 
 /// A law that is called, and how it is opened.
 enum Opened {
-    Here(Plugin),
+    Here(Box<Plugin>),
     There(PathBuf),
 }
 
@@ -170,7 +170,8 @@ fn call(law: &dyn Evaluator, fresh: &LawInstance, random: &mut Random) {
 /// One round: libraries are opened and let go, instances live across that, threads call them at the same time.
 fn round(library: &Path, random: &mut Random) {
     let open = || Plugin::open(library, &LoadOptions::default()).expect("the law is well formed");
-    let mut opened = vec![Opened::Here(archard()), Opened::Here(open()), Opened::There(library.to_owned())];
+    let mut opened =
+        [Opened::Here(Box::new(archard())), Opened::Here(Box::new(open())), Opened::There(library.to_owned())];
     let mut laws: Vec<(Box<dyn Evaluator>, bool)> = Vec::new();
     for _ in 0..OPERATIONS {
         match random.below(8) {
@@ -188,7 +189,7 @@ fn round(library: &Path, random: &mut Random) {
             },
             2 if !laws.is_empty() => drop(laws.swap_remove(random.below(laws.len()))),
             // The library goes before its instances, which keep it.
-            3 => opened[1] = Opened::Here(open()),
+            3 => opened[1] = Opened::Here(Box::new(open())),
             4 => {
                 let seeds: Vec<u64> = laws.iter().map(|_| random.below(1 << 30) as u64).collect();
                 std::thread::scope(|scope| {

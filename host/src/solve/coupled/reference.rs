@@ -27,7 +27,9 @@ impl Coupled<'_> {
         match &self.plan.reference {
             None | Some(ReferencePlan::Refined) => {}
             Some(ReferencePlan::File(path)) => drop(from_file(path, self.ids())?),
-            Some(ReferencePlan::Exact(named)) => drop(self.ask(*named).map_err(|reason| not_covered(*named, reason))?),
+            Some(ReferencePlan::Exact(named)) => {
+                self.ask(*named).map_err(|reason| not_covered(*named, reason))?;
+            }
         }
         Ok(())
     }
