@@ -2,7 +2,7 @@
 //!
 //! Rounding, flush-to-zero and exception masks are per thread; a law that changes them would change the host's
 //! own numbers. The check stores two registers, which takes 1 to 8 ns by the processor (STMXCSR is the slow one on
-//! AMD's), so it can stand behind every batch call: captured once per thread, compared after each call.
+//! AMD's); who looks when is in `handle::float_guard`.
 #![allow(unsafe_code)] // the control registers can be reached by inline assembly only
 
 use std::fmt;
