@@ -1,6 +1,6 @@
 //! The file of a checkpoint: everything to go on with to the bit, and a hash that finds what time has done to it.
 //!
-//! Layout, numbers in little-endian order: [`MAGIC`]; format version (u64); length of the header (u64); the header, a JSON
+//! Layout, numbers in little-endian order: a line that says what the file is; format version (u64); length of the header (u64); the header, a JSON
 //! document of names and lengths; the numbers; the rows of the history, each a word whose bits say which quantities are
 //! known and then all quantities; the arrays; SHA-256 over everything before it.
 
