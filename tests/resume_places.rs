@@ -1,0 +1,138 @@
+//! Every place at which a run tells of a checkpoint can be gone on from with the same bits, whatever the run keeps there.
+
+#[allow(dead_code)] // reason: a part of these laws is for other tests.
+#[path = "wear_reference/laws.rs"]
+mod laws;
+#[path = "support/solved.rs"]
+mod solved;
+
+use std::borrow::Cow;
+
+use laws::RunningIn;
+use solved::{archard, memory};
+use wearlaw::law::Evaluator;
+use wearlaw::plan::Plan;
+use wearlaw::record::{Checkpoint, End, Event, Nobody, Observer, Record, Wish};
+use wearlaw::scene::Scene;
+use wearlaw::solve::{Run, SolveError};
+
+/// Keeps all checkpoints of a run.
+#[derive(Default)]
+struct All(Vec<Checkpoint<'static>>);
+
+impl Observer for All {
+    fn observe(&mut self, event: Event<'_>) -> Wish {
+        if let Event::Checkpoint { checkpoint, .. } = event {
+            self.0.push(Checkpoint {
+                history: Cow::Owned(checkpoint.history.clone().into_owned()),
+                warnings: checkpoint.warnings.to_vec().into(),
+                asides: checkpoint.asides.to_vec().into(),
+                numbers: checkpoint.numbers.clone(),
+                arrays: checkpoint.arrays.iter().map(|(name, data)| (name.clone(), data.to_vec().into())).collect(),
+                ..Checkpoint { time: checkpoint.time, cost: checkpoint.cost, ..Checkpoint::default() }
+            });
+        }
+        Wish::GoOn
+    }
+
+    fn wants_checkpoint(&mut self, _last: bool) -> bool {
+        true
+    }
+}
+
+/// What has to agree, with every bit of its numbers.
+fn bits(record: &Record<SolveError>) -> String {
+    format!(
+        "{:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {}",
+        record.history,
+        record.wear,
+        record.pressure,
+        record.state,
+        record.estimated_error,
+        record.largest_step,
+        record.warnings,
+        record.profile,
+        record.end,
+        record.cost.steps,
+    )
+}
+
+/// Goes through a scene once, then from each of about eight of its checkpoints.
+#[track_caller]
+fn every_place(law: &dyn Evaluator, text: &str) {
+    let scene = Scene::parse(text, "scene.toml", &[]).unwrap_or_else(|error| panic!("{error:?}\n{text}"));
+    let plan = Plan::new(&scene, law.descriptor()).unwrap_or_else(|error| panic!("{error:?}\n{text}"));
+    let run = Run::prepare(&plan, law).expect("a surface");
+    let mut all = All::default();
+    let whole = run.go(1, &mut all);
+    assert!(matches!(whole.end, End::Done | End::Stopped(_)), "{:?}\n{text}", whole.end);
+    assert!(all.0.len() > 2, "{} checkpoints\n{text}", all.0.len());
+    let expected = bits(&whole);
+    for checkpoint in all.0.iter().step_by(all.0.len().div_ceil(8)).chain(all.0.last()) {
+        let resumed = run.resume(1, &mut Nobody, checkpoint).expect("a checkpoint of this run");
+        assert!(bits(&resumed) == expected, "from time {}:\n{text}", checkpoint.time);
+    }
+}
+
+const ARCHARD: &str = "[law]\nuse = \"archard\"\nconstants = { K = 1e-4, H = 1e10 }\n";
+const CURVED: &str = "[law]\nuse = \"archard\"\nconstants = { K = 1e-6, H = 1e10, m = 1.3 }\n";
+const REMEMBERS: &str = "[law]\nuse = \"archard\"\nconstants = [1e-14, 1e-15, 0.04]\n";
+const SPRINGS: &str = "[contact]\nmodel = \"foundation\"\ndimension = 2\nstiffness = 1e13\n";
+const BODIES: &str = "[contact]\nmodel = \"halfspace\"\ndimension = 2\nmodulus = 1.1e11\n";
+const GRID: &str = "[grid]\nsize = [1.2e-3]\ncells = [40]\n[surface]\nshape = \"cylinder\"\nradius = 1e-2\n";
+const CYCLES: &str = "[[cycle]]\ncount = 12\n[[cycle.step]]\nduration = 0.5\nload = 1000.0\nvelocity = 1.0\nstick = 2e-5\n\
+    [[cycle.step]]\nduration = 0.7\nload = 400.0\nvelocity = -0.5\nramp = [\"load\", \"velocity\"]\n";
+const STEADY: &str =
+    "[[step]]\nduration = 3.0\nload = 1000.0\nvelocity = 1.0\n[[step]]\nduration = 9.0\nload = 500.0\nvelocity = 0.3\n";
+
+#[test]
+fn substeps_of_every_method_and_law() {
+    for method in ["auto", "implicit-euler", "sdirk2"] {
+        let integrator = format!("[integrator]\nmethod = \"{method}\"\nsubsteps = 3\n");
+        every_place(&archard(), &format!("{ARCHARD}{SPRINGS}{GRID}{CYCLES}{integrator}"));
+        every_place(&archard(), &format!("{ARCHARD}{BODIES}{GRID}{CYCLES}{integrator}"));
+        every_place(&archard(), &format!("{CURVED}{SPRINGS}{GRID}{CYCLES}{integrator}"));
+    }
+    let integrator = "[integrator]\nsubsteps = 3\n";
+    every_place(&memory::<RunningIn>(None), &format!("{REMEMBERS}{BODIES}{GRID}{CYCLES}{integrator}"));
+    let post = format!("{ARCHARD}mode = \"post\"\n{BODIES}{GRID}{CYCLES}{integrator}");
+    every_place(&archard(), &post);
+}
+
+#[test]
+fn stretches_to_a_tolerance() {
+    let fields = "[output]\nfields = [\"wear\"]\nevery = 7\n";
+    for integrator in
+        ["[integrator]\ntolerance = 1e-3\n".to_owned(), format!("[integrator]\ntolerance = 1e-3\n{fields}")]
+    {
+        every_place(&archard(), &format!("{ARCHARD}{SPRINGS}{GRID}{CYCLES}{integrator}"));
+        every_place(&archard(), &format!("{ARCHARD}{BODIES}{GRID}{CYCLES}{integrator}"));
+        let stop = "[stop]\nwear_depth = 1.5e-7\n";
+        every_place(&archard(), &format!("{ARCHARD}{SPRINGS}{GRID}{CYCLES}{integrator}{stop}"));
+    }
+}
+
+#[test]
+fn scaled_substeps_and_cycles() {
+    let substeps = "[integrator]\nsubsteps = 20\n";
+    let scaled = |kind: &str| format!("[scaling]\nkind = \"{kind}\"\nsafety = 0.05\n");
+    every_place(&archard(), &format!("{ARCHARD}{SPRINGS}{GRID}{STEADY}{substeps}{}", scaled("auto")));
+    for integrator in ["[integrator]\nsubsteps = 3\n", "[integrator]\ntolerance = 1e-3\n"] {
+        let cycles = CYCLES.replace("count = 12", "count = 100");
+        every_place(&archard(), &format!("{ARCHARD}{SPRINGS}{GRID}{cycles}{integrator}{}", scaled("cycle")));
+        every_place(&archard(), &format!("{ARCHARD}{BODIES}{GRID}{cycles}{integrator}{}", scaled("cycle")));
+    }
+}
+
+#[test]
+fn prescribed_pieces_of_rates_and_of_laws_with_a_memory() {
+    let loading = "[contact]\nmodel = \"prescribed\"\n[[cycle]]\ncount = 9\n[[cycle.step]]\nduration = 0.02\npressure = 1e8\nvelocity = 1.0\n\
+        [[cycle.step]]\nduration = 0.05\npressure = 3e8\nvelocity = -0.5\nramp = [\"pressure\", \"velocity\"]\n";
+    for scaling in ["", "[scaling]\nkind = \"cycle\"\nmaximum = 3.0\n"] {
+        every_place(&archard(), &format!("{CURVED}{loading}{scaling}"));
+        every_place(
+            &memory::<RunningIn>(None),
+            &format!("{REMEMBERS}{loading}{scaling}[integrator]\ntolerance = 1e-5\n"),
+        );
+    }
+}
