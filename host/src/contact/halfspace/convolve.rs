@@ -18,6 +18,8 @@ const STRIP: usize = 8;
 const BLOCK: usize = 4;
 /// Numbers between columns.
 const APART: usize = 4;
+/// Cells of padded rows from which threads pay for themselves.
+const WORTH: usize = 1 << 15;
 const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 
 /// Memory that one thread works in.
@@ -99,7 +101,7 @@ impl Convolution {
             columns: vec![ZERO; STRIP * (padded[1] + APART)],
             scratch: vec![ZERO; scratch],
         };
-        let benches = if threads > 1 { 2 * threads } else { 1 };
+        let benches = if threads > 1 && padded[0] * counts[1] >= WORTH { 2 * threads } else { 1 };
         Convolution {
             counts,
             padded,

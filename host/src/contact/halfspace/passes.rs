@@ -7,7 +7,7 @@ use rayon::prelude::*;
 /// Numbers in a chunk.
 const CHUNK: usize = 8192;
 /// Length from which threads pay for themselves.
-const WORTH: usize = 1 << 16;
+const WORTH: usize = 1 << 15;
 
 /// What a function makes of each chunk of 0..count, in order.
 pub fn each_chunk<T: Send>(threads: usize, count: usize, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
