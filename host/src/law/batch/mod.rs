@@ -194,6 +194,11 @@ impl<'a> Batch<'a> {
         (self.store.view.points as usize).saturating_mul(self.store.bytes_per_point)
     }
 
+    /// [`Batch::bytes_moved`] of the points of this batch alone.
+    pub(super) fn bytes_of_points(&self) -> usize {
+        self.points.saturating_mul(self.store.bytes_per_point)
+    }
+
     /// Begins to go through this batch with views of its ranges.
     pub(super) fn cursor(&self, request: i64) -> Cursor<'_> {
         Cursor {

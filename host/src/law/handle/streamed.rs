@@ -27,15 +27,17 @@ const USUAL_CACHE: usize = 32 << 20;
 pub(super) fn pays(batch: &Batch<'_>) -> bool {
     batch.points() > PIECE
         && streaming_is_possible()
-        && leaves(last_cache(), batch.bytes_moved(), batch.points() * size_of::<f64>())
+        && leaves(last_cache(), batch.bytes_moved(), batch.bytes_of_points(), batch.points() * size_of::<f64>())
 }
 
-/// Whether so many bytes of a whole batch leave a cache before the increments of this call, so many bytes, are read.
+/// Whether so many bytes of a whole batch, and of the call's own part of it, leave a cache before the increments of this
+/// call, so many bytes, are read.
 ///
-/// From half the cache on it is as fast to read them from the memory as to have kept them, on both threads of the machine
-/// that this was measured on. Increments of less than a thirty-second part are taken to be read at once.
-fn leaves(cache: usize, batch: usize, increments: usize) -> bool {
-    batch >= cache / 2 && increments >= cache / 32
+/// From half the cache on one thread reads them from the memory as fast as it would have kept them. Threads that share a
+/// batch keep what the whole cache holds: there two of them are twice as fast as the memory. Increments of less than a
+/// thirty-second part are taken to be read at once.
+fn leaves(cache: usize, batch: usize, own: usize, increments: usize) -> bool {
+    (batch >= cache || own >= cache / 2) && increments >= cache / 32
 }
 
 /// Bytes of the last cache.

@@ -120,9 +120,11 @@ fn an_increment_that_the_law_does_not_write_is_no_number() {
 #[test]
 fn answers_stay_in_a_cache_that_holds_them() {
     let cache = 32 << 20;
-    assert!(leaves(cache, 24_000_000, 8_000_000) && leaves(cache, 24_000_000, 4_000_000));
-    assert!(!leaves(cache, 9_600_000, 3_200_000), "the whole batch fits");
-    assert!(!leaves(cache, 480_000_000, 65_536), "a part of it that is read at once");
+    assert!(leaves(cache, 24_000_000, 24_000_000, 8_000_000), "one thread goes through all of it");
+    assert!(!leaves(cache, 24_000_000, 12_000_000, 4_000_000), "the threads that share it find it again");
+    assert!(leaves(cache, 48_000_000, 12_000_000, 4_000_000), "the whole batch does not fit");
+    assert!(!leaves(cache, 9_600_000, 9_600_000, 3_200_000), "the whole batch fits");
+    assert!(!leaves(cache, 480_000_000, 196_608, 65_536), "a part of it that is read at once");
     assert_eq!(
         ["32768K\n", "32M", "512", "1000000000000M", "", "K", "0K"].map(bytes_of),
         [Some(32 << 20), Some(32 << 20), Some(512), Some(1_000_000_000_000 << 20), None, None, None]
