@@ -6,131 +6,15 @@ use std::ffi::c_char;
 use wearlaw_plugin_api::abi;
 
 use super::arrays::{Arrays, Room};
+use super::columns::view_of;
+pub(crate) use super::layout::{Asked, Given, Layout, Spread};
 use super::points::Case;
 use super::subject::Instance;
-use crate::law::batch::{blank_view, column_of, index_column_of};
-use crate::law::fields::Shape;
-use crate::law::{Field, Fields, LawDescriptor, OutputItem};
+use crate::law::batch::column_of;
+use crate::law::{Field, LawDescriptor};
 
-/// How the values of a column lie.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Spread {
-    /// One after the other.
-    PerPoint,
-    /// One for all.
-    Uniform,
-    /// With so many times the room of one between them.
-    Strided(usize),
-}
-
-/// Which fields are given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Given {
-    /// All, also those that the law does not declare: then only one check finds a law that reads them.
-    All,
-    /// What the law reads or uses, as a host does it.
-    Declared,
-}
-
-/// Which outputs are asked for beside the increment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Asked {
-    pub(crate) direction: bool,
-    pub(crate) state: bool,
-    pub(crate) d_pressure: bool,
-    pub(crate) status: bool,
-}
-
-impl Asked {
-    /// The increment alone.
-    pub(crate) const NOTHING: Self = Self { direction: false, state: false, d_pressure: false, status: false };
-
-    /// Everything that the law can write, without statuses.
-    pub(crate) fn values(law: &LawDescriptor) -> Self {
-        Self {
-            direction: law.writes(OutputItem::Direction),
-            state: !law.state.is_empty(),
-            d_pressure: law.writes(OutputItem::DPressure),
-            status: false,
-        }
-    }
-
-    /// Everything that the law can write, and statuses: no pointer is NULL.
-    pub(crate) fn everything(law: &LawDescriptor) -> Self {
-        Self { status: true, ..Self::values(law) }
-    }
-
-    /// Every way of asking that hosts use: with and without derivative, with and without statuses.
-    pub(crate) fn ways(law: &LawDescriptor) -> Vec<Self> {
-        let all = Self::values(law);
-        let mut ways = vec![all, Self { status: true, ..all }];
-        if all.d_pressure {
-            ways.push(Self { d_pressure: false, ..all });
-        }
-        ways
-    }
-}
-
-/// How a case is laid out.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Layout {
-    pub(crate) given: Given,
-    pub(crate) asked: Asked,
-    pub(crate) room: Room,
-    /// Inputs cannot be written; needs a room with guards.
-    pub(crate) sealed: bool,
-    /// The state at the start cannot be written either.
-    pub(crate) state_sealed: bool,
-    /// Fields that are not given, whatever `given` says.
-    pub(crate) absent: Fields,
-    /// Fields that are given once for all points.
-    pub(crate) uniform: Fields,
-    pub(crate) inputs: Spread,
-    /// How the other fields, and the state, lie.
-    pub(crate) fields: Spread,
-    pub(crate) constants: Spread,
-    /// Doubles by which every array of doubles is moved away from an even address.
-    pub(crate) skew: usize,
-    /// Bytes of the buffer for a text; none: NULL.
-    pub(crate) text: Option<usize>,
-    /// What the outputs hold before the call.
-    pub(crate) filling: u64,
-}
-
-impl Layout {
-    /// Columns per point, constants given once, room all around, every value that the law can write.
-    pub(crate) fn plain(law: &LawDescriptor) -> Self {
-        Self {
-            given: Given::All,
-            asked: Asked::values(law),
-            room: Room::Plain,
-            sealed: false,
-            state_sealed: false,
-            absent: Fields::EMPTY,
-            uniform: Fields::EMPTY,
-            inputs: Spread::PerPoint,
-            fields: Spread::PerPoint,
-            constants: Spread::Uniform,
-            skew: 0,
-            text: None,
-            filling: 0,
-        }
-    }
-}
-
-impl Layout {
-    /// As [`Layout::plain`], with everything asked for.
-    pub(crate) fn everything(law: &LawDescriptor) -> Self {
-        Self { asked: Asked::everything(law), ..Self::plain(law) }
-    }
-}
-
-/// More points than this, and fields that the law does not declare are given once for all.
-const MANY: usize = 4096;
 /// Most points of a batch that are called one by one to find the one that matters.
 const SEARCHED: usize = 1 << 17;
-/// What lies between the values of a column: a law that takes it for a value gives a NaN.
-const BETWEEN: f64 = f64::NAN;
 
 /// A call, ready to be made.
 pub(crate) struct Call {
@@ -189,27 +73,7 @@ impl Call {
     /// Lays a case out.
     pub(crate) fn new(law: &LawDescriptor, case: &Case, layout: &Layout) -> Self {
         let mut arrays = Arrays::new(layout.room, 8 * layout.skew);
-        let mut view = blank_view(&case.numbers, case.count, law);
-        for field in Field::ALL.iter().copied().filter(|field| is_given(law, *field, layout)) {
-            lay_field(&mut arrays, &mut view, law, case, layout, field);
-        }
-        let constants: Vec<_> = (0..law.constants.len())
-            .map(|index| {
-                let name = &law.constants[index].name;
-                lay(&mut arrays, name, case, layout.constants, 1, |case, point, _| case.constants(point)[index])
-            })
-            .collect();
-        let inputs: Vec<_> = (0..law.inputs.len())
-            .map(|index| {
-                let name = &law.inputs[index].name;
-                lay(&mut arrays, name, case, layout.inputs, 1, |case, point, _| case.point(point).inputs[index])
-            })
-            .collect();
-        view.constants = columns(&mut arrays, "the columns of the constants", &constants);
-        view.inputs = columns(&mut arrays, "the columns of the inputs", &inputs);
-        if !law.state.is_empty() {
-            view.state = lay_state(&mut arrays, case, layout, law.state.len());
-        }
+        let mut view = view_of(law, case, layout, &mut arrays);
         let outputs = Outputs::place(&mut arrays, law, case.count, layout);
         view.request = bits(&layout.asked);
         let output = abi::Output {
@@ -259,6 +123,7 @@ impl Call {
                 let single = self.single(point);
                 let mut call = Call::new(&self.law, &single, &self.layout);
                 slate.input(lines(&single, &self.law).as_bytes());
+                slate.single_begins();
                 call.repeat(instance);
             }
             slate.points(self.case.count);
@@ -370,98 +235,6 @@ fn narrowed(number: u64) -> bool {
 /// The inputs at the first point, a line each.
 fn lines(case: &Case, law: &LawDescriptor) -> String {
     case.named(law, 0).iter().fold(String::new(), |text, (name, value)| text + name + "\t" + value + "\n")
-}
-
-fn is_given(law: &LawDescriptor, field: Field, layout: &Layout) -> bool {
-    if layout.absent.contains(field) {
-        return false;
-    }
-    match layout.given {
-        Given::All => true,
-        Given::Declared => law.fields().contains(field),
-    }
-}
-
-fn lay_field(
-    arrays: &mut Arrays,
-    view: &mut abi::View,
-    law: &LawDescriptor,
-    case: &Case,
-    layout: &Layout,
-    field: Field,
-) {
-    let many = case.count > MANY && !law.fields().contains(field);
-    let spread = if layout.uniform.contains(field) || many { Spread::Uniform } else { layout.fields };
-    if field.shape() == Shape::Index {
-        let column = lay(arrays, field.name(), case, spread, 1, |case, point, _| {
-            // The bits of the integer, as the array has room for words.
-            f64::from_bits(case.point(point).index(field).cast_unsigned())
-        });
-        if let Some(place) = index_column_of(view, field) {
-            *place = abi::IndexColumn { ptr: column.ptr.cast(), step: column.step };
-        }
-    } else if let Some(place) = column_of(view, field) {
-        let width = field.shape().width();
-        *place = lay(arrays, field.name(), case, spread, width, |case, point, component| {
-            case.point(point).real(field)[component]
-        });
-    }
-}
-
-fn lay_state(arrays: &mut Arrays, case: &Case, layout: &Layout, variables: usize) -> abi::Column {
-    let value = |case: &Case, point: usize, variable: usize| case.point(point).state[variable];
-    let spread = if layout.fields == Spread::Uniform { Spread::PerPoint } else { layout.fields };
-    lay_sealed(arrays, "state (start)", case, spread, variables, layout.state_sealed, value)
-}
-
-fn lay(
-    arrays: &mut Arrays,
-    name: &str,
-    case: &Case,
-    spread: Spread,
-    width: usize,
-    value: impl Fn(&Case, usize, usize) -> f64,
-) -> abi::Column {
-    lay_sealed(arrays, name, case, spread, width, true, value)
-}
-
-fn lay_sealed(
-    arrays: &mut Arrays,
-    name: &str,
-    case: &Case,
-    spread: Spread,
-    width: usize,
-    read_only: bool,
-    value: impl Fn(&Case, usize, usize) -> f64,
-) -> abi::Column {
-    let (step, rows) = match spread {
-        Spread::PerPoint => (width, case.count),
-        Spread::Uniform => (0, case.count.min(1)),
-        Spread::Strided(times) => (times * width, case.count),
-    };
-    let length = if rows == 0 { 0 } else { (rows - 1) * step + width };
-    let first = arrays.place(name, 8 * length, read_only).cast::<f64>();
-    // SAFETY: the array was just made with room for `length` doubles, and nothing else refers to it.
-    let array = unsafe { std::slice::from_raw_parts_mut(first, length) };
-    if step > width {
-        array.fill(BETWEEN);
-    }
-    for row in 0..rows {
-        for component in 0..width {
-            array[row * step + component] = value(case, row, component);
-        }
-    }
-    abi::Column { ptr: first, step: step as i64 }
-}
-
-fn columns(arrays: &mut Arrays, name: &str, columns: &[abi::Column]) -> *const abi::Column {
-    if columns.is_empty() {
-        return std::ptr::null();
-    }
-    let first = arrays.place(name, size_of_val(columns), true).cast::<abi::Column>();
-    // SAFETY: the array was just made with room for them.
-    unsafe { first.copy_from_nonoverlapping(columns.as_ptr(), columns.len()) };
-    first
 }
 
 fn put<T>(arrays: &mut Arrays, name: &str, value: T, read_only: bool) -> *mut T {

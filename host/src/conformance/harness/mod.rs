@@ -6,7 +6,9 @@
 pub(super) mod arrays;
 pub(super) mod call;
 pub(super) mod closeness;
+mod columns;
 pub(super) mod fault_note;
+mod layout;
 pub(super) mod points;
 pub(super) mod random;
 pub(super) mod sample;
