@@ -13,10 +13,10 @@ fn help_and_version_go_to_standard_output() {
     let here = folder();
     let help = run(here.path(), &["--help"]);
     assert_eq!((help.code, help.stderr.as_str()), (0, ""));
-    for word in ["run", "plan", "build", "new", "inspect", "apdl", "Exit codes", "130"] {
+    for word in ["run", "plan", "build", "new", "inspect", "check", "apdl", "Exit codes", "130"] {
         assert!(help.stdout.contains(word), "{word}");
     }
-    for word in ["study", "stability", "bench", "check", "__worker"] {
+    for word in ["study", "stability", "bench", "__worker"] {
         assert!(!help.stdout.contains(&format!("\n  {word} ")), "{word} is no command yet");
     }
     let version = run(here.path(), &["--version"]);
