@@ -99,6 +99,7 @@ mod tests {
             call: 7,
             points: 16,
             label: String::new(),
+            stayed: Duration::ZERO,
             input: "pressure\t5e7\ndt\t0.1\n".to_owned(),
             touched: Touched::Behind,
             array: "pressure".to_owned(),

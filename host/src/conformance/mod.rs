@@ -30,6 +30,8 @@ mod schedule;
 #[cfg(target_os = "linux")]
 mod slate;
 #[cfg(target_os = "linux")]
+mod trial;
+#[cfg(target_os = "linux")]
 mod worker;
 
 #[cfg(not(target_os = "linux"))]

@@ -1,29 +1,19 @@
 //! Runs the checks, several at a time, each in a worker of its own.
 
-use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::attempt::{Attempt, Ended, attempt, fault};
-use super::bodies::ORDINARY;
 use super::check::{Check, Group};
 use super::error::ConformanceError;
-use super::evidence::{lost, outcome};
-use super::message::{Answer, Task};
 use super::needs::FAULTS;
 use super::outcome::{CheckResult, Outcome};
 use super::replay::Replay;
 use super::schedule::{Item, Next, Schedule, Unit};
-use super::slate::{Phase, Touched};
+use super::trial::Trials;
 use super::{CheckOptions, Event, Report};
 use crate::law::Source;
 use crate::law::file_facts::FileFacts;
-
-/// Part of a check's time after which its loops of many calls are cut short.
-const BUDGET: f64 = 0.4;
-/// Time for the attempt that looks for the point at which a worker was lost.
-const NARROWING: Duration = Duration::from_secs(3);
 
 /// Runs the selected checks of a law, or of all laws of a library.
 ///
@@ -57,13 +47,9 @@ pub fn run(
 
 struct Runner<'r> {
     options: &'r CheckOptions,
-    /// With an absolute path: a law may change the working directory.
-    source: Source,
-    program: PathBuf,
+    trials: Trials<'r>,
     sha256: Option<String>,
     stop: &'r AtomicBool,
-    /// How many laws the library holds.
-    count: AtomicUsize,
     /// Set by the first error: everything else ends too.
     failed: AtomicBool,
     shared: Mutex<Shared<'r>>,
@@ -89,11 +75,6 @@ impl<'r> Runner<'r> {
             Source::File(path) => FileFacts::examine(path).ok().map(|facts| facts.sha256),
             Source::Embedded(_) => None,
         };
-        let source = match &options.source {
-            Source::File(path) => Source::File(std::path::absolute(path).unwrap_or_else(|_| path.clone())),
-            Source::Embedded(name) => Source::Embedded(name.clone()),
-        };
-        let here = || std::env::current_exe().unwrap_or_else(|_| PathBuf::from("/proc/self/exe"));
         let shared = Shared {
             on,
             results: Vec::new(),
@@ -104,11 +85,9 @@ impl<'r> Runner<'r> {
         };
         Ok(Self {
             options,
-            source,
-            program: options.program.clone().unwrap_or_else(here),
+            trials: Trials::new(options, stop),
             sha256,
             stop,
-            count: AtomicUsize::new(1),
             failed: AtomicBool::new(false),
             shared: Mutex::new(shared),
             changed: Condvar::new(),
@@ -131,7 +110,7 @@ impl<'r> Runner<'r> {
     fn run(&self) -> Result<Vec<String>, ConformanceError> {
         let mut failed: Vec<(Item, Check)> = Vec::new();
         if self.is_wanted(Check::LoadSymbols) {
-            let (outcome, _) = self.single(None, Check::LoadSymbols)?;
+            let (outcome, _) = self.trials.single(None, Check::LoadSymbols, |_| false)?;
             if outcome.falls_short() {
                 failed.push(((None, Check::LoadSymbols), Check::LoadSymbols));
                 failed.push(((None, Check::LoadOpens), Check::LoadSymbols));
@@ -142,9 +121,9 @@ impl<'r> Runner<'r> {
         if failed.is_empty() {
             // Always, because it tells which laws there are.
             let start = Instant::now();
-            let (outcome, answer) = self.single(None, Check::LoadOpens)?;
+            let (outcome, answer) = self.trials.single(None, Check::LoadOpens, |_| false)?;
             laws = answer.map(|answer| answer.laws).unwrap_or_default();
-            self.count.store(laws.len().max(1), Ordering::Relaxed);
+            self.trials.holds(laws.len());
             let broken = outcome.falls_short();
             if broken {
                 failed.push(((None, Check::LoadOpens), Check::LoadOpens));
@@ -256,9 +235,10 @@ impl<'r> Runner<'r> {
         let start = Instant::now();
         let check = unit.checks[0];
         let (outcomes, blocks) = if FAULTS.contains(&check) {
-            self.faults(&unit.checks, law.as_deref())?
+            self.trials.faults(law.as_deref(), &unit.checks)?
         } else {
-            (vec![(check, self.single(law.as_deref(), check)?.0)], true)
+            let known = |kind| self.has_fault(law.as_deref(), kind);
+            (vec![(check, self.trials.single(law.as_deref(), check, known)?.0)], true)
         };
         let seconds = start.elapsed().as_secs_f64();
         self.lock().schedule.finish(index, &outcomes, blocks);
@@ -268,115 +248,11 @@ impl<'r> Runner<'r> {
         Ok(())
     }
 
-    fn task(&self, law: Option<&str>, check: Check) -> Task {
-        let options = self.options;
-        Task {
-            check,
-            source: self.source.clone(),
-            law: law.map(str::to_owned).or_else(|| options.law.clone()),
-            options: options.options.clone(),
-            seed: options.seed,
-            quick: options.quick,
-            expected: self.expected(law),
-            budget: BUDGET * options.timeout.as_secs_f64(),
-            narrow: None,
-            bits: Vec::new(),
-        }
-    }
-
-    fn expected(&self, law: Option<&str>) -> Option<PathBuf> {
-        let found = self.options.expected.file(law, self.count.load(Ordering::Relaxed))?;
-        Some(std::path::absolute(&found).unwrap_or(found))
-    }
-
-    fn attempt(&self, task: &Task, timeout: Duration) -> Result<Attempt, ConformanceError> {
-        let attempted = attempt(&self.program, task, timeout, self.stop)
-            .map_err(|source| ConformanceError::Start { program: self.program.clone(), source })?;
-        match &attempted.ended {
-            Ended::Interrupted => Err(ConformanceError::Interrupted),
-            Ended::Answered(answer) => match &answer.fault {
-                Some(what) => Err(ConformanceError::Fault { check: task.check.name(), what: what.clone() }),
-                None => Ok(attempted),
-            },
-            _ => Ok(attempted),
-        }
-    }
-
-    /// One check in one worker, or two of them where processes are compared.
-    fn single(&self, law: Option<&str>, check: Check) -> Result<(Outcome, Option<Answer>), ConformanceError> {
-        let mut task = self.task(law, check);
-        let mut attempted = self.attempt(&task, self.options.timeout)?;
-        if check == Check::DeterminismProcess
-            && let Ended::Answered(answer) = &attempted.ended
-            && !answer.bits.is_empty()
-        {
-            task.bits.clone_from(&answer.bits);
-            attempted = self.attempt(&task, self.options.timeout)?;
-        }
-        if let Some(known) = self.known_fault(law, check, &attempted) {
-            return Ok((Outcome::Blocked(known), None));
-        }
-        let mut outcome = outcome(check, &attempted, self.options.timeout);
-        self.narrow(&task, &attempted, &mut outcome)?;
-        let answer = match attempted.ended {
-            Ended::Answered(answer) => Some(*answer),
-            _ => None,
-        };
-        Ok((outcome, answer))
-    }
-
-    /// The check of a fault that the law is known to have, if this worker ended by the same.
-    fn known_fault(&self, law: Option<&str>, check: Check, attempt: &Attempt) -> Option<Check> {
-        let (kind, _) = fault(attempt, self.options.timeout)?;
-        let guarded = matches!(attempt.crumb.touched, Touched::Behind | Touched::Before | Touched::ReadOnly);
-        let absent = matches!(check, Check::MemoryUndeclared | Check::MemoryUses | Check::MemoryOutputs);
-        let loading = matches!(check, Check::LoadSymbols | Check::LoadOpens | Check::LoadTwice);
-        let own = guarded || absent || loading || check == Check::FaultsCreate;
+    /// True if the law is known to have that fault.
+    fn has_fault(&self, law: Option<&str>, kind: Check) -> bool {
         let shared = self.lock();
-        let known = shared
-            .results
-            .iter()
-            .filter(|result| law.is_none() || result.law.as_deref() == law)
-            .any(|result| result.check == kind && result.outcome.finding().is_some());
-        (known && !own).then_some(kind)
-    }
-
-    /// Looks for the one point of a batch at which a worker was lost.
-    fn narrow(&self, task: &Task, attempted: &Attempt, outcome: &mut Outcome) -> Result<(), ConformanceError> {
-        let crumb = &attempted.crumb;
-        let (Outcome::Crashed(finding) | Outcome::TimedOut(finding)) = outcome else { return Ok(()) };
-        if crumb.phase != Phase::Evaluating || crumb.points <= 1 || task.check == Check::ThreadsConcurrent {
-            return Ok(());
-        }
-        let again = Task { narrow: Some(crumb.call), ..task.clone() };
-        let again = self.attempt(&again, self.options.timeout.min(NARROWING))?;
-        if !matches!(again.ended, Ended::Answered(_)) && again.crumb.call == crumb.call && again.crumb.points == 1 {
-            let single = lost(&again, self.options.timeout.min(NARROWING));
-            finding.input = single.input;
-            finding.what = format!("{}; one point of them is enough", finding.what);
-        } else {
-            finding.what = format!("{}; no point of them alone does it, shown is the first", finding.what);
-        }
-        Ok(())
-    }
-
-    /// The checks that one run of the law judges: each fails by its own kind of fault.
-    fn faults(&self, checks: &[Check], law: Option<&str>) -> Result<(Vec<(Check, Outcome)>, bool), ConformanceError> {
-        let task = self.task(law, checks[0]);
-        let attempted = self.attempt(&task, self.options.timeout)?;
-        let Some((kind, _)) = fault(&attempted, self.options.timeout) else {
-            let outcome = outcome(checks[0], &attempted, self.options.timeout);
-            return Ok((checks.iter().map(|check| (*check, outcome.clone())).collect(), true));
-        };
-        let mut found = outcome(kind, &attempted, self.options.timeout);
-        self.narrow(&task, &attempted, &mut found)?;
-        // Told even if another kind was asked for: the answer to that is not known.
-        let mut outcomes: Vec<(Check, Outcome)> =
-            checks.iter().filter(|check| **check != kind).map(|check| (*check, Outcome::Blocked(kind))).collect();
-        outcomes.push((kind, found));
-        // What ordinary inputs do happens everywhere; what odd ones do happens where they are given.
-        let label = &attempted.crumb.label;
-        Ok((outcomes, label.is_empty() || label == ORDINARY))
+        let of_law = shared.results.iter().filter(|result| law.is_none() || result.law.as_deref() == law);
+        of_law.into_iter().any(|result| result.check == kind && result.outcome.finding().is_some())
     }
 
     fn report(
@@ -389,7 +265,7 @@ impl<'r> Runner<'r> {
         let mut result = CheckResult { law, check, outcome, seconds, replay: None };
         if let Some(folder) = &self.options.replays
             && let Some(replay) =
-                Replay::of(&result, self.options, self.expected(result.law.as_deref()), self.sha256.clone())
+                Replay::of(&result, self.options, self.trials.expected(result.law.as_deref()), self.sha256.clone())
         {
             result.replay = Some(replay.write(folder)?);
         }

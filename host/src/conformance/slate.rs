@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io;
 use std::os::fd::{AsRawFd, FromRawFd, RawFd};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 
 use memmap2::MmapRaw;
 
@@ -96,6 +97,8 @@ pub(super) struct Crumb {
     pub(super) points: u64,
     /// What the checker was about, in words.
     pub(super) label: String,
+    /// How long ago the law was last called with a single point, where points were tried one by one.
+    pub(super) stayed: Duration,
     /// Inputs at the first point of the call, a line each, `name value`.
     pub(super) input: String,
     pub(super) touched: Touched,
@@ -109,6 +112,7 @@ const WORD_CALL: usize = 1;
 const WORD_POINTS: usize = 2;
 const WORD_TOUCHED: usize = 3;
 const WORD_OFFSET: usize = 4;
+const WORD_SINCE: usize = 5;
 
 /// A text in the memory: the word of its length, its first byte, its room.
 struct Text {
@@ -222,6 +226,11 @@ impl Slate {
         self.word(WORD_POINTS).store(points as u64, Ordering::Release);
     }
 
+    /// Notes that the law is called with one point now.
+    pub(super) fn single_begins(&self) {
+        self.word(WORD_SINCE).store(milliseconds(), Ordering::Release);
+    }
+
     /// Notes the inputs at the first point of the call.
     pub(super) fn input(&self, lines: &[u8]) {
         self.put(&INPUT, lines);
@@ -243,12 +252,21 @@ impl Slate {
             call: number(WORD_CALL),
             points: number(WORD_POINTS),
             label: text(&LABEL),
+            stayed: Duration::from_millis(milliseconds().saturating_sub(number(WORD_SINCE))),
             input: text(&INPUT),
             touched: Touched::ALL.get(number(WORD_TOUCHED) as usize).copied().unwrap_or(Touched::Elsewhere),
             array: text(&ARRAY),
             offset: number(WORD_OFFSET),
         }
     }
+}
+
+/// A clock that two processes share.
+fn milliseconds() -> u64 {
+    let mut now = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+    // SAFETY: the struct lives through the call.
+    unsafe { libc::clock_gettime(libc::CLOCK_MONOTONIC, &mut now) };
+    1000 * now.tv_sec.cast_unsigned() + now.tv_nsec.cast_unsigned() / 1_000_000
 }
 
 /// A file without a name, in memory, that goes with its last descriptor.

@@ -40,7 +40,7 @@ impl Table {
     }
 
     fn parse(text: &str, origin: &str) -> Result<Self, String> {
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
         let heads = reader.headers().map_err(|error| format!("{origin}: {error}"))?;
         let heads: Vec<String> = heads.iter().map(str::to_owned).collect();
         let mut rows = Vec::new();
@@ -85,7 +85,7 @@ impl Table {
         }
         let needed = law.reads.iter().map(first_head);
         let needed = needed.chain(law.constants.iter().filter(|c| c.default.is_none()).map(|c| c.name.clone()));
-        let mut needed = needed.chain(law.inputs.iter().map(|input| input.name.clone())).chain(["dt".to_owned()]);
+        let mut needed = needed.chain(law.inputs.iter().map(|input| input.name.clone()));
         let missing = needed.find(|head| !self.heads.contains(head))?;
         Some(format!("{}: no column `{missing}`, which law `{}` needs", self.origin, law.name))
     }
@@ -112,7 +112,7 @@ impl Table {
         point.state = law.state.iter().map(|v| given(v, &format!("{}_start", v.name))).collect();
         let constants = law.constants.iter().map(|constant| given(constant, &constant.name)).collect();
         let numbers = CallNumbers {
-            dt: number("dt").unwrap_or(0.0),
+            dt: number("dt").unwrap_or(1.0),
             time: number("time").unwrap_or(0.0),
             absolute_zero: number("absolute_zero").unwrap_or(0.0),
             reference_temperature: number("reference_temperature").unwrap_or(0.0),
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn a_table_gives_calls_and_sets_of_constants() {
         let law = archard();
-        let text = "K,H,pressure,velocity,dt,increment\n1e-4,2e9,5e7,0.2,1,5e-7\n1e-4,2e9,,0.2,1,0\n-1,2e9,1,1,1,0\n";
+        let text = "# by hand\nK,H,pressure,velocity,dt,increment\n1e-4,2e9,5e7,0.2,1,5e-7\n1e-4,2e9,,0.2,1,0\n-1,2e9,1,1,1,0\n";
         let table = Table::parse(text, "expected.csv").unwrap();
         assert_eq!(table.misfit(&law), None);
         assert_eq!(table.constants(&law), [[1e-4, 2e9, 1.0, 1.0]]);

@@ -123,6 +123,7 @@ impl Call {
                 let single = self.single(point);
                 let mut call = Call::new(&self.law, &single, &self.layout);
                 slate.input(lines(&single, &self.law).as_bytes());
+                slate.single_begins();
                 call.repeat(instance);
             }
             slate.points(self.case.count);
