@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use program::{Ended, fails, folder, json, run, wearlaw, write};
+use program::{ended, fails, folder, json, run, wearlaw, write};
 use serde_json::Value;
 use wearlaw::conformance::Check;
 
@@ -272,8 +272,8 @@ fn nothing_is_left_of_laws_that_fork_and_hang() {
     for name in ["hangs", "crashes", "goes_on"] {
         let words = ["check", &format!("{name}.so"), "--only", "faults", "--timeout", "1", "-q"];
         let mut command = wearlaw(here.path(), &words);
-        let ended: Ended = command.env("TMPDIR", temporary.path()).output().expect("the program starts").into();
-        assert_eq!(ended.code, i32::from(name != "goes_on"), "{name}: {}", ended.stdout);
+        let came = ended(command.env("TMPDIR", temporary.path()).output().expect("the program starts"), &words);
+        assert_eq!(came.code, i32::from(name != "goes_on"), "{name}: {}", came.stdout);
     }
     let sleeping = || {
         let processes = std::fs::read_dir("/proc").expect("there is a /proc").flatten();
