@@ -23,5 +23,7 @@ mod libraries;
 mod missing_inputs;
 #[path = "bad_input/scenes.rs"]
 mod scenes;
+#[path = "bad_input/solved_scenes.rs"]
+mod solved_scenes;
 #[path = "bad_input/struct_sizes.rs"]
 mod struct_sizes;

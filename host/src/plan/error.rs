@@ -155,4 +155,17 @@ pub enum PlanProblem {
         "found a file of velocities in a prescribed scene, expected a number or the column `velocity` of `contact.history`"
     )]
     VelocityFile,
+    /// A grid that the machine has no memory for.
+    #[error(
+        "found {cells} cells in all, which take {:.1} GB at the least, expected no more than the {:.1} GB that this machine has",
+        *least as f64 * 1e-9, *machine as f64 * 1e-9
+    )]
+    TooManyCells {
+        /// Cells of the grid.
+        cells: u64,
+        /// Bytes that they take at the least.
+        least: u64,
+        /// Bytes that the machine has.
+        machine: u64,
+    },
 }

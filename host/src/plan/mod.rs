@@ -8,6 +8,7 @@ mod build;
 mod constants;
 mod error;
 mod loading;
+mod machine_memory;
 mod material;
 mod needs;
 mod output;

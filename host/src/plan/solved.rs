@@ -6,6 +6,7 @@ use crate::contact::Cells;
 use crate::contact::surface::{Shape, Surface};
 use crate::integrator::Formula;
 use crate::law::{Claim, Degree, Field, LawDescriptor, OutputItem};
+use crate::plan::machine_memory::machine_memory;
 use crate::plan::{Material, PlanError, PlanProblem, Skipped};
 use crate::scene::{Accuracy, Basis, BeyondLimit, Boundary, Method, Model, Scene};
 
@@ -100,7 +101,7 @@ impl SolvedPlan {
         let center = center.map(|center| [center[0], center.get(1).copied().unwrap_or(0.5)]);
         let shape = asked.map_or(Shape::FlatPunch { width: f64::MAX }, |surface| shape(scene, &surface.shape));
         let plan = SolvedPlan {
-            cells: cells(scene),
+            cells: checked_cells(scene)?,
             elastic,
             contact_tolerance,
             surface: Surface { shape, center },
@@ -135,6 +136,23 @@ impl SolvedPlan {
                 "implicit steps have no limit (`wearlaw stability` measures it)",
             ));
         }
+    }
+}
+
+/// Arrays of a number for each cell that any run holds: the gap at first and in a stage, wear and pressure each twice.
+const ARRAYS: u64 = 6;
+
+/// The cells, if the machine has memory for them.
+fn checked_cells(scene: &Scene) -> Result<Cells, PlanError> {
+    let cells = cells(scene);
+    let [x, y] = cells.counts.map(|count| count as u64);
+    let count = x.saturating_mul(y);
+    let least = count.saturating_mul(ARRAYS * size_of::<f64>() as u64);
+    match machine_memory() {
+        Some(machine) if least > machine => {
+            Err(scene.error_at("grid.cells", PlanProblem::TooManyCells { cells: count, least, machine }))
+        }
+        _ => Ok(cells),
     }
 }
 

@@ -31,7 +31,7 @@ pub enum SolveError {
         covered: f64,
     },
     /// The points could not be advanced over a piece of loading.
-    #[error("load step {load_step}, substep {substep}, from time {time}: {source}")]
+    #[error("load step {load_step}, substep {substep}, from time {}: {source}", instant(*time))]
     Advance {
         /// Number of the load step, from 1.
         load_step: i64,
@@ -47,8 +47,9 @@ pub enum SolveError {
     Surface(#[from] SurfaceError),
     /// An explicit step is beyond the stability limit.
     #[error(
-        "load step {load_step}, from time {time}: an explicit substep of {step:e} is beyond the stability limit \
-         {limit:e}, expected less, an implicit method, or `integrator.beyond_limit` = \"substep\" or \"run\""
+        "load step {load_step}, from time {}: an explicit substep of {step:e} is beyond the stability limit {limit:e}, \
+         expected less, an implicit method, or `integrator.beyond_limit` = \"substep\" or \"run\"",
+        instant(*time)
     )]
     BeyondLimit {
         /// Number of the load step, from 1.
@@ -79,8 +80,9 @@ pub enum SolveError {
     Interrupted,
     /// The contact covers a free grid to its rim.
     #[error(
-        "load step {load_step}, time {time}: the contact covers all of the grid's rim, so the load is larger than the \
-         domain can carry and the answer would be that of another body; expected a larger `grid.size`, or less load"
+        "load step {load_step}, time {}: the contact covers all of the grid's rim, so the load is larger than the \
+         domain can carry and the answer would be that of another body; expected a larger `grid.size`, or less load",
+        instant(*time)
     )]
     DomainFull {
         /// Number of the load step, from 1.
@@ -225,6 +227,11 @@ pub struct ShortStep {
     pub at: Option<PointInputs>,
     /// The law's own words; may be empty.
     pub text: String,
+}
+
+/// A time, with a power of ten where it would have many zeros.
+fn instant(time: f64) -> String {
+    if time == 0.0 || (1e-5..1e16).contains(&time) { time.to_string() } else { format!("{time:e}") }
 }
 
 fn least(smallest: f64) -> String {
