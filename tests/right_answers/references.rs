@@ -1,7 +1,8 @@
 //! Named references of solved scenes: what they say of a scene that they do not cover, before it runs.
 
 use crate::solved::{Case, archard};
-use wearlaw::solve::Run;
+use wearlaw::record::{End, Event, Nobody, Observer, Wish};
+use wearlaw::solve::{Run, SolveError};
 
 const BALL: &str = "[law]\nuse = \"archard\"\nconstants = [1e-14, 1.0, 1.0, 1.0]\n\
     [contact]\nmodel = \"halfspace\"\nmodulus = 1e11\n[grid]\nsize = [2e-4, 2e-4]\ncells = [8, 8]\n\
@@ -71,4 +72,38 @@ fn a_prescribed_scene_refuses_answers_to_solved_contact() {
     let plan = case.plan(&law);
     let said = Run::prepare(&plan, &law).expect("no files").check_reference().expect_err("another model").to_string();
     assert!(said.contains("does not cover this scene: it is for a contact that is solved"), "{said}");
+}
+
+/// Ends a run at its second step.
+struct Impatient(u64);
+
+impl Observer for Impatient {
+    fn observe(&mut self, event: Event<'_>) -> Wish {
+        if let Event::Step { steps, .. } = event {
+            self.0 = steps;
+        }
+        if self.0 >= 2 { Wish::Stop } else { Wish::GoOn }
+    }
+}
+
+#[test]
+fn a_refined_run_tells_of_its_steps_and_ends_when_it_is_asked_to() {
+    let springs = "[law]\nuse = \"archard\"\nconstants = [1e-4, 1e9, 1, 1]\n[contact]\nmodel = \"foundation\"\n\
+                   stiffness = 1e12\ndimension = 2\n[grid]\nsize = [1e-3]\ncells = [4]\n[surface]\nshape = \"cylinder\"\n\
+                   radius = 1e-2\n[[step]]\nduration = 1.0\nload = 100.0\nvelocity = 1.0\n";
+    let prescribed = "[law]\nuse = \"archard\"\nconstants = [1e-4, 1e9, 1, 1]\n[contact]\nmodel = \"prescribed\"\n\
+                      [[cycle]]\ncount = 100\n[[cycle.step]]\nduration = 1.0\npressure = 1e6\nvelocity = 1.0\n";
+    for scene in [springs, prescribed] {
+        let case = Case::text(&format!("{scene}[integrator]\nsubsteps = 4\n[reference]\nkind = \"self\"\n"));
+        let law = archard();
+        let plan = case.plan(&law);
+        let run = Run::prepare(&plan, &law).expect("no files");
+        let record = run.go(1, &mut Nobody);
+        assert!(matches!(record.end, End::Done), "{:?}", record.end);
+        let mut impatient = Impatient(0);
+        let error = run.error(&record, &mut impatient);
+        assert!(matches!(error, Err(SolveError::Interrupted)), "{error:?}");
+        assert!((2..=10).contains(&impatient.0), "it went on for {} steps", impatient.0);
+        assert!(run.error(&record, &mut Nobody).expect("a reference").is_some());
+    }
 }

@@ -90,7 +90,8 @@ impl Case {
         let run = Run::prepare(&plan, law).unwrap_or_else(|error| panic!("{error}\n{}", self.scene));
         let record = run.go(threads, &mut Nobody);
         let finished = matches!(record.end, End::Done | End::Stopped(_));
-        let error = if finished { run.error(&record).unwrap_or_else(|error| panic!("{error}")) } else { None };
+        let error =
+            if finished { run.error(&record, &mut Nobody).unwrap_or_else(|error| panic!("{error}")) } else { None };
         Solved { plan, record, error }
     }
 

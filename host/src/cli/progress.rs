@@ -50,11 +50,20 @@ impl Progress {
 
     /// Shows how far the run is; the bar draws no more often than anyone can read.
     pub(super) fn show(&self, stage: &Stage) {
+        self.show_as("", stage);
+    }
+
+    /// Shows how far the run is that the results are compared with.
+    pub(super) fn show_reference(&self, stage: &Stage) {
+        self.show_as("reference  ", stage);
+    }
+
+    fn show_as(&self, what: &str, stage: &Stage) {
         if self.bar.is_hidden() {
             return;
         }
         self.bar.set_position((stage.fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
-        self.bar.set_message(words(stage));
+        self.bar.set_message(format!("{what}{}", words(stage)));
     }
 }
 

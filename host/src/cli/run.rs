@@ -12,7 +12,7 @@ use super::progress::Progress;
 use super::restart;
 use super::summary::Summary;
 use super::table::labelled;
-use super::writing::Listener;
+use super::writing::{Comparison, Listener};
 use crate::error::Error;
 use crate::exit_code::ExitCode;
 use crate::output::{
@@ -97,16 +97,18 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     drop(earlier);
     let Listener { fields, keeper, trouble, progress, .. } = listener;
     drop(progress);
+    let mut comparison = Comparison { interrupt: &interrupt, progress: Progress::start(console) };
     if let Some(error) = trouble {
         return Err(error.into());
     }
     fields.map(FieldSeries::finish).transpose()?;
     let finished = matches!(record.end, End::Done | End::Stopped(_));
-    // A reference that fails costs its error norm, not the results.
-    let (error, without_reference) = match if finished { run.error(&record) } else { Ok(None) } {
+    // A reference that fails, or takes too long for whoever waits, costs its error norm, not the results.
+    let (error, without_reference) = match if finished { run.error(&record, &mut comparison) } else { Ok(None) } {
         Ok(error) => (error, None),
         Err(failure) => (None, Some(failure)),
     };
+    drop(comparison);
     let report = report(&scene, &plan, &law, settings, &record, error.as_ref())?;
     write_history(&record.history, &keeper.path().join("history.csv"))?;
     let title = scene.title.clone().unwrap_or_else(|| settings.scene.display().to_string());
@@ -122,6 +124,10 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
             (error.exit_code(), Some(error))
         }
         End::Interrupted => (ExitCode::Interrupted, None),
+        End::Done | End::Stopped(_) if matches!(without_reference, Some(SolveError::Interrupted)) => {
+            console.note("the reference was interrupted: the results are whole, their error is not known");
+            (ExitCode::Interrupted, None)
+        }
         End::Done | End::Stopped(_) if without_reference.is_some() => {
             let error = without_reference.map_or(Error::Interrupted, Error::from);
             (error.exit_code(), Some(error))

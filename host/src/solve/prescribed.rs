@@ -12,7 +12,7 @@ use crate::integrator::substeps::Control;
 use crate::integrator::{Tally, norm};
 use crate::law::{Evaluator, OutputItem};
 use crate::plan::{Advance, FieldKind, Plan, ReferencePlan};
-use crate::record::{self, Checkpoint, Cost, End, Event, Line, MemoryLine, Nobody, Observer, Record, Stability, Wish};
+use crate::record::{self, Checkpoint, Cost, End, Event, Line, MemoryLine, Observer, Record, Stability, Wish};
 use crate::scene::ScalingKind;
 use crate::solve::chunk::SCANNED_POINTS;
 use crate::solve::inputs::Drive;
@@ -297,11 +297,17 @@ impl<'p> Prescribed<'p> {
     ///
     /// # Errors
     /// A reference that does not cover the scene, or cannot be read or computed.
-    pub(super) fn error(&self, record: &Record<SolveError>) -> Result<Option<ErrorNorm>, SolveError> {
+    pub(super) fn error(
+        &self,
+        record: &Record<SolveError>,
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<Option<ErrorNorm>, SolveError> {
         let Some(wanted) = &self.plan.reference else { return Ok(None) };
         let (exact, name) = match wanted {
             ReferencePlan::File(path) => (reference::from_file(path, self.ids())?, path.display().to_string()),
-            ReferencePlan::Refined => (self.refined()?, "the same scene to a tolerance 100 times tighter".to_owned()),
+            ReferencePlan::Refined => {
+                (self.refined(observer)?, "the same scene to a tolerance 100 times tighter".to_owned())
+            }
             ReferencePlan::Exact(named) => {
                 let until = record.history.last().map_or(0.0, |row| row.time);
                 let mut pieces = Vec::new();
@@ -320,7 +326,7 @@ impl<'p> Prescribed<'p> {
         Ok(Some(compare(&record.wear, &exact, &name)))
     }
 
-    fn refined(&self) -> Result<Vec<f64>, SolveError> {
+    fn refined(&self, observer: &mut (dyn Observer + Send)) -> Result<Vec<f64>, SolveError> {
         let mut plan = self.plan.clone();
         plan.output.fields.clear();
         plan.material.scaling.kind = ScalingKind::None;
@@ -337,9 +343,10 @@ impl<'p> Prescribed<'p> {
             }
             other => other,
         };
-        let record = Prescribed::prepare(&plan, self.evaluator)?.go(1, &mut Nobody, None)?;
+        let record = Prescribed::prepare(&plan, self.evaluator)?.go(1, observer, None)?;
         match record.end {
             End::Failed(error) => Err(error),
+            End::Interrupted => Err(SolveError::Interrupted),
             _ => Ok(record.wear),
         }
     }

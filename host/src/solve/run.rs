@@ -155,12 +155,18 @@ impl<'p> Run<'p> {
 
     /// Compares a record with the reference that the plan names; `None` if it names none.
     ///
+    /// A refined run can take many times as long as the run itself; `observer` hears of its steps and can end it.
+    ///
     /// # Errors
-    /// A reference that does not cover the scene, or cannot be read or computed.
-    pub fn error(&self, record: &Record<SolveError>) -> Result<Option<ErrorNorm>, SolveError> {
+    /// A reference that does not cover the scene, or cannot be read or computed; an interruption.
+    pub fn error(
+        &self,
+        record: &Record<SolveError>,
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<Option<ErrorNorm>, SolveError> {
         match &self.kind {
-            Kind::Prescribed(run) => run.error(record),
-            Kind::Coupled(run) => run.error(record),
+            Kind::Prescribed(run) => run.error(record, observer),
+            Kind::Coupled(run) => run.error(record, observer),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::exact::{Answer, Asked, Published};
 use super::run::Coupled;
 use crate::plan::ReferencePlan;
-use crate::record::{End, Nobody, Record};
+use crate::record::{End, Observer, Record};
 use crate::reference::NamedReference;
 use crate::solve::reference::{compare, from_file, relative_l2};
 use crate::solve::{ErrorNorm, ReferenceError, SolveError};
@@ -39,14 +39,18 @@ impl Coupled<'_> {
     }
 
     /// Compares a record with the reference that the plan names; `None` if it names none.
-    pub(in crate::solve) fn error(&self, record: &Record<SolveError>) -> Result<Option<ErrorNorm>, SolveError> {
+    pub(in crate::solve) fn error(
+        &self,
+        record: &Record<SolveError>,
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<Option<ErrorNorm>, SolveError> {
         let Some(wanted) = &self.plan.reference else { return Ok(None) };
         let expected = match wanted {
             ReferencePlan::File(path) => {
                 let answer = Answer { wear: from_file(path, self.ids())?, ..Answer::default() };
                 Expected { answer, name: path.display().to_string(), pressed: false }
             }
-            ReferencePlan::Refined => self.refined()?,
+            ReferencePlan::Refined => self.refined(observer)?,
             ReferencePlan::Exact(named) => {
                 let refuse = |reason| not_covered(*named, reason);
                 let asked = self.ask(*named).map_err(refuse)?;
@@ -95,16 +99,17 @@ impl Coupled<'_> {
     }
 
     /// The same scene in many more steps, and to a tighter contact tolerance.
-    fn refined(&self) -> Result<Expected, SolveError> {
+    fn refined(&self, observer: &mut (dyn Observer + Send)) -> Result<Expected, SolveError> {
         let mut plan = self.plan.clone();
         let mut solved = self.solved.clone();
         plan.output.fields.clear();
         plan.substeps = plan.substeps.map(|substeps| substeps.saturating_mul(MORE_SUBSTEPS));
         plan.tolerance = plan.tolerance.map(|tolerance| tolerance * REFINEMENT);
         solved.contact_tolerance = (0.1 * solved.contact_tolerance).max(1e-12);
-        let finer = Coupled::prepare(&plan, &solved, self.evaluator)?.go(0, &mut Nobody, None)?;
+        let finer = Coupled::prepare(&plan, &solved, self.evaluator)?.go(0, observer, None)?;
         match finer.end {
             End::Failed(error) => Err(error),
+            End::Interrupted => Err(SolveError::Interrupted),
             _ => Ok(Expected {
                 answer: Answer { wear: finer.wear, pressure: finer.pressure, ..Answer::default() },
                 name: "the same scene in many more steps".to_owned(),
