@@ -2,6 +2,8 @@
 
 #[path = "support/native.rs"]
 mod native;
+#[path = "support/rust_law.rs"]
+mod rust_law;
 
 use std::path::Path;
 use std::process::Command;
@@ -40,6 +42,19 @@ fn the_laws_of_the_readme_build_and_run_as_printed() {
         assert!((value - 2.5e-9).abs() < 1e-23, "{name}: {said}");
         std::fs::remove_file(folder.path().join("law.so")).expect("it was built");
     }
+}
+
+#[test]
+fn the_law_in_rust_builds_and_answers_as_printed() {
+    let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let library = rust_law::try_build(blocks(&text, "rust")[0], folder.path()).unwrap_or_else(|said| panic!("{said}"));
+    std::fs::rename(library, folder.path().join("law.so")).expect("a writable folder");
+    std::os::unix::fs::symlink(native::include().canonicalize().expect("include/"), folder.path().join("include"))
+        .expect("a writable folder");
+    std::fs::write(folder.path().join("try.c"), blocks(&text, "c")[2]).expect("a writable folder");
+    let said = shell(folder.path(), blocks(&text, "sh")[3]);
+    assert!(said.starts_with("my-archard: status 0, increment 2.5"), "{said}");
 }
 
 #[test]

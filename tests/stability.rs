@@ -210,6 +210,24 @@ fn prescribed_pressure_has_no_limit_and_extreme_input_is_answered() {
 }
 
 #[test]
+fn the_ordinary_point_of_a_history_is_its_most_loaded_one() {
+    let folder = folder();
+    let scene = "[law]\nuse = \"archard\"\nconstants = { K = 1e-4, H = 1e10 }\n[contact]\nmodel = \"prescribed\"\n\
+                 history = \"h.csv\"\n[integrator]\nsubsteps = 1\n";
+    write(folder.path(), "scene.toml", scene);
+    for motion in [
+        "velocity\n0,1,1e6,0.5\n0,2,3e6,0.25\n2,1,1e6,0.5\n2,2,3e6,0.25\n",
+        "slip\n0,1,1e6,0\n0,2,3e6,0\n2,1,1e6,1\n2,2,3e6,0.5\n",
+    ] {
+        write(folder.path(), "h.csv", &format!("time,point,pressure,{motion}"));
+        let (document, _) = stability(folder.path(), &[]);
+        let answer = number(&document["extremes"][0], "/answer/value");
+        // K / H p v over the second that stands for a substep of no given length.
+        assert!((answer / (1e-14 * 3e6 * 0.25) - 1.0).abs() < 1e-12, "{answer:e} of {motion}");
+    }
+}
+
+#[test]
 fn explicit_steps_beyond_the_limit_are_refused_cut_or_marked() {
     let folder = folder();
     let words = ["run", "scene.toml", "--out", "out"];

@@ -72,8 +72,11 @@ fn a_mistake_in_a_solved_scene_names_its_key() {
     }
 }
 
-/// Runs that cannot come to an answer: exit code and kind, changes, and what has to be said.
-const FAILED: &[((i32, &str), &[&str], &[&str])] = &[
+/// Exit code and kind, changes of the scene, and what has to be said.
+type Failure = ((i32, &'static str), &'static [&'static str], &'static [&'static str]);
+
+/// Runs that cannot come to an answer.
+const FAILED: &[Failure] = &[
     ((4, "numbers"), &["step.0.load=1e6"], &["load step 1", "rim", "`grid.size`"]),
     ((4, "numbers"), &["step.0.duration=1e300"], &["load step 1, time ", "e298", "rim"]),
     (

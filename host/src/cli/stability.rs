@@ -14,7 +14,7 @@ use crate::exit_code::ExitCode;
 use crate::law::CallNumbers;
 use crate::plan::Plan;
 use crate::scene::Units;
-use crate::solve::{Ladder, Outcome, Row, Run};
+use crate::solve::{Ladder, Ordinary, Outcome, Row, Run};
 use crate::stability::extremes::{self, Answer, Extreme, Point, Surroundings};
 
 const LABEL: usize = 18;
@@ -29,7 +29,7 @@ pub(super) fn command(console: &Console, arguments: StabilityArguments) -> Resul
     let run = Run::prepare(&plan, law.evaluator.as_ref())?;
     let at = arguments.at.unwrap_or(0.0);
     let ladder = interrupt.over(run.ladder(at, &|| !interrupt.asked()).map_err(Error::from))?;
-    let rows = extremes(&plan, &law, ladder.as_ref(), at)?;
+    let rows = extremes(&plan, &law, (ladder.as_ref(), run.ordinary()), at)?;
     let own_fine = ladder.as_ref().is_none_or(|ladder| ladder.own.fine);
     let code = if own_fine { ExitCode::Done } else { ExitCode::NumbersFailed };
     let verdict = verdict(ladder.as_ref(), &rows);
@@ -51,24 +51,26 @@ pub(super) fn command(console: &Console, arguments: StabilityArguments) -> Resul
 }
 
 /// The law at extreme input, around what an ordinary point of the scene has.
-fn extremes(plan: &Plan, law: &OpenedLaw, ladder: Option<&Ladder>, at: f64) -> Result<Vec<Extreme>, Error> {
+fn extremes(
+    plan: &Plan,
+    law: &OpenedLaw,
+    (ladder, prescribed): (Option<&Ladder>, Option<Ordinary>),
+    at: f64,
+) -> Result<Vec<Extreme>, Error> {
     let moment = ladder.map(|ladder| ladder.moment).unwrap_or_default();
-    let steps = || plan.blocks.iter().flat_map(|block| &block.steps);
-    let given = |of: &dyn Fn(&crate::plan::LoadStep) -> Option<f64>| steps().filter_map(of).find(|value| *value != 0.0);
-    let (pressure, velocity) = match ladder {
-        Some(_) => (moment.mean_pressure, moment.velocity.abs()),
-        None => (
-            given(&|step| step.pressure.map(|line| line.to)).unwrap_or_default(),
-            given(&|step| step.velocity.map(|line| line.to.abs())).unwrap_or_default(),
-        ),
-    };
+    let usual = prescribed.unwrap_or(Ordinary {
+        pressure: moment.mean_pressure,
+        velocity: moment.velocity.abs(),
+        temperature: moment.temperature,
+    });
     let or = |value: f64, ordinary: f64| if value > 0.0 { value } else { ordinary };
-    let duration = given(&|step| step.duration).unwrap_or(1.0);
+    let durations = plan.blocks.iter().flat_map(|block| &block.steps).filter_map(|step| step.duration);
+    let duration = durations.into_iter().find(|duration| *duration != 0.0).unwrap_or(1.0);
     let table = &plan.material.constants;
     let point = Point {
-        constants: (0..table.count()).map(|c| table.value(c, at, moment.temperature)).collect(),
-        pressure: or(pressure, ORDINARY.0),
-        velocity: or(velocity, ORDINARY.1),
+        constants: (0..table.count()).map(|c| table.value(c, at, usual.temperature)).collect(),
+        pressure: or(usual.pressure, ORDINARY.0),
+        velocity: or(usual.velocity, ORDINARY.1),
         dt: duration / plan.substeps.unwrap_or(1) as f64,
     };
     let numbers = CallNumbers {
@@ -81,7 +83,7 @@ fn extremes(plan: &Plan, law: &OpenedLaw, ladder: Option<&Ladder>, at: f64) -> R
     };
     let around = Surroundings {
         numbers,
-        temperature: moment.temperature,
+        temperature: usual.temperature,
         friction: plan.friction.unwrap_or(0.0),
         state: plan.initial_state.clone(),
     };
@@ -190,7 +192,8 @@ fn cells(row: &Row, none_tried: bool) -> Vec<String> {
             cells
         }
         Outcome::NotTried(why) => blank(why),
-        Outcome::Failed(error) => blank(&format!("failed: {error}")),
+        // What it said stands once, below the tables.
+        Outcome::Failed(_) => blank("failed"),
         Outcome::Seen(seen) => {
             let short = |value: f64| significant(value, 3);
             let stepped = match seen.replaced {
@@ -245,6 +248,8 @@ fn verdict(ladder: Option<&Ladder>, extremes: &[Extreme]) -> Vec<String> {
         Some(ladder) => {
             let fine = if ladder.own.fine { "fine" } else { "not fine" };
             lines.push(format!("the scene's method, {}, is {fine}: {}", ladder.own.method, ladder.own.words));
+            lines.extend(ladder.own.beside.clone());
+            lines.extend(failures(ladder));
             lines.extend(overworn(ladder));
         }
     }
@@ -257,6 +262,20 @@ fn verdict(ladder: Option<&Ladder>, extremes: &[Extreme]) -> Vec<String> {
         });
     }
     lines
+}
+
+/// What the failed trials said, each text once.
+fn failures(ladder: &Ladder) -> Vec<String> {
+    let mut told: Vec<(String, Vec<String>)> = Vec::new();
+    for row in &ladder.rows {
+        let Outcome::Failed(text) = &row.outcome else { continue };
+        let place = format!("{} at r = {:e}, given {}", row.method, row.ratio, row.control.word());
+        match told.iter_mut().find(|(known, _)| known == text) {
+            Some((_, places)) => places.push(place),
+            None => told.push((text.clone(), vec![place])),
+        }
+    }
+    told.into_iter().map(|(text, places)| format!("failed, {}: {text}", places.join("; "))).collect()
 }
 
 /// Where a second-order method alone would have gone wrong.

@@ -5,7 +5,7 @@
 pub enum ContactError {
     /// The iterations ended before the tolerance was met.
     #[error(
-        "the contact solve stays at a complementarity error of {error:e} after {iterations} iterations, expected at \
+        "the contact solve stays at a complementarity error of {error:.2e} after {iterations} iterations, expected at \
          most {tolerance:e} (`contact.tolerance`); the best state was kept"
     )]
     NotConverged {

@@ -293,7 +293,9 @@ pub enum Problem {
         text: String,
     },
     /// An override of an entry that does not exist.
-    #[error("found entry {index} of `{list}`, which has {count} (counted from 0), expected one that the scene has")]
+    #[error(
+        "found entry {index} of `{list}`, which has {count} (counted from 0), expected one that the scene has (`[[{list}]]` in the scene adds one)"
+    )]
     NoSuchEntry {
         /// The list.
         list: String,

@@ -148,8 +148,9 @@ pub enum PointError {
     Contact(#[from] ContactError),
     /// A stage of an implicit step did not converge.
     #[error(
-        "the implicit stage stays at a residual of {residual:e} after {iterations} linearisations of the law, expected at \
-         most {tolerance:e} (`contact.tolerance`); a smaller `integrator.tolerance` or more `integrator.substeps` may help"
+        "the implicit stage stays at a residual of {residual:.2e} after {iterations} linearisations of the law, expected at \
+         most {tolerance:e} (`contact.tolerance`, as a part of the gap's size); shorter steps may help: a smaller \
+         `integrator.tolerance`, or more `integrator.substeps`"
     )]
     Newton {
         /// Linearisations.
@@ -162,7 +163,8 @@ pub enum PointError {
     /// A law that falls with pressure.
     #[error(
         "law `{law}` wears less where the pressure is higher: at point {point} the slope of the increment is {slope:e} at \
-         pressure {pressure:e}, expected at least 0 (implicit contact needs a law that does not fall with pressure)"
+         pressure {pressure:e}, expected at least 0 (implicit contact needs a law that does not fall with pressure, and a \
+         right derivative if it gives one: `wearlaw check LIB --only derivative`)"
     )]
     NotMonotone {
         /// The law.

@@ -47,6 +47,17 @@ pub struct Moment {
     pub mean_pressure: f64,
 }
 
+/// What the most loaded point of a prescribed scene is under; in the scene's units, 0 where the scene gives nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ordinary {
+    /// Contact pressure.
+    pub pressure: f64,
+    /// Sliding velocity.
+    pub velocity: f64,
+    /// Temperature.
+    pub temperature: f64,
+}
+
 /// The stiffness under one control; times in the scene's unit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Stiff {
@@ -117,6 +128,8 @@ pub struct OwnMethod {
     pub fine: bool,
     /// Why.
     pub words: String,
+    /// What it does under the control that the scene does not have, if that is not fine.
+    pub beside: Option<String>,
 }
 
 /// The whole ladder.

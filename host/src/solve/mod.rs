@@ -26,6 +26,6 @@ mod sums;
 mod sweeps;
 
 pub use error::{PointError, ShortStep, SolveError};
-pub use ladder::{Ladder, Moment, Outcome, OwnMethod, Pressed, Row, Stiff};
+pub use ladder::{Ladder, Moment, Ordinary, Outcome, OwnMethod, Pressed, Row, Stiff};
 pub use reference::{ErrorNorm, ReferenceError, compare};
 pub use run::Run;

@@ -1,5 +1,6 @@
 //! One run under a prescribed pressure: prepared, then gone through.
 
+mod ordinary;
 mod place;
 mod rounds;
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coupled::Coupled;
 use super::prescribed::Prescribed;
-use super::{ErrorNorm, Ladder, SolveError};
+use super::{ErrorNorm, Ladder, Ordinary, SolveError};
 use crate::law::Evaluator;
 use crate::plan::Plan;
 use crate::record::{Checkpoint, Geometry, MemoryLine, Observer, Record};
@@ -139,6 +139,14 @@ impl<'p> Run<'p> {
         match &self.kind {
             Kind::Prescribed(_) => Ok(None),
             Kind::Coupled(run) => run.ladder(at, goes_on)?.map(Some).ok_or(SolveError::Interrupted),
+        }
+    }
+
+    /// What the most loaded point is under, where pressure is prescribed; `None` where contact is solved.
+    pub fn ordinary(&self) -> Option<Ordinary> {
+        match &self.kind {
+            Kind::Prescribed(run) => Some(run.ordinary()),
+            Kind::Coupled(_) => None,
         }
     }
 

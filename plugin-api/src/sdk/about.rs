@@ -153,7 +153,7 @@ pub trait About: Sized + Send + Sync + 'static {
     const READS: i64;
     /// `WL_FIELD_` bits that it uses if they are there.
     const USES: i64 = 0;
-    /// `WL_OUT_` bits that it can write.
+    /// `WL_OUT_` bits that it can write; that of the state is added where there are state variables.
     const WRITES: i64 = 0;
     /// `WL_CLAIM_` bits.
     const CLAIMS: i64 = 0;

@@ -8,7 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::abi::{
     Host, LawTable, Output, Quantity as RawQuantity, View, WL_ABI_MINOR, WL_FAILED, WL_KIND_CONSTANT, WL_KIND_FIELD,
-    WL_KIND_INPUT, WL_KIND_STATE, WL_NO_MORE, WL_OK,
+    WL_KIND_INPUT, WL_KIND_STATE, WL_NO_MORE, WL_OK, WL_OUT_STATE,
 };
 
 use super::answer::Room;
@@ -119,7 +119,8 @@ pub fn fill<T: Law>(table: &mut LawTable) {
     write_text(&mut table.source, T::SOURCE);
     table.reads = T::READS;
     table.uses = T::USES;
-    table.writes = T::WRITES;
+    // The state at the end is written by whoever has one.
+    table.writes = T::WRITES | if T::STATE.is_empty() { 0 } else { WL_OUT_STATE };
     table.claims = T::CLAIMS;
     table.flags = T::FLAGS;
     table.constant_count = T::CONSTANTS.len() as i64;

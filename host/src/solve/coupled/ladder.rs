@@ -70,7 +70,7 @@ impl<'p> Coupled<'p> {
         };
         if self.plan.material.mode == Mode::Post {
             let words = "wear is only a result and never changes the contact: no step has a stability limit";
-            ladder.own = OwnMethod { method: self.own_name(), fine: true, words: words.to_owned() };
+            ladder.own = OwnMethod { method: self.own_name(), fine: true, words: words.to_owned(), beside: None };
             return Ok(Some(ladder));
         }
         for control in [Pressed::Load, Pressed::Approach] {
@@ -235,9 +235,12 @@ impl<'p> Coupled<'p> {
         if self.solved.scheme.formula == Formula::ExplicitEuler {
             let (fine, words) = match (limit, self.plan.substeps, self.solved.beyond_limit) {
                 (None, _, _) => (true, "explicit steps have no limit here".to_owned()),
-                (Some(limit), None, _) => {
-                    (true, format!("explicit steps begin short enough for the limit {limit:.4e}, and pay for it"))
-                }
+                (Some(limit), None, _) => (
+                    true,
+                    format!(
+                        "explicit steps of its own begin short enough for the limit {limit:.4e}, and are no longer anywhere"
+                    ),
+                ),
                 (Some(limit), Some(_), _) if self.usual_step() <= limit => {
                     (true, format!("explicit steps of {:.4e} keep the limit {limit:.4e}", self.usual_step()))
                 }
@@ -250,22 +253,32 @@ impl<'p> Coupled<'p> {
                     (false, format!("explicit steps of {step:.4e} are beyond the limit {limit:.4e} and {then}"))
                 }
             };
-            return OwnMethod { method, fine, words };
+            return OwnMethod { method, fine, words, beside: None };
         }
-        let mut wrong = Vec::new();
-        for row in ladder.rows.iter().filter(|row| row.method == method) {
-            if let Some(what) = row.outcome.trouble() {
-                wrong.push(format!("{} at {:e} / stiffness under a given {}", what, row.ratio, row.control.word()));
-            }
-        }
-        let words = match wrong.len() {
-            0 => format!(
+        let wrong = |under: &dyn Fn(Pressed) -> bool| -> Vec<String> {
+            let rows = ladder.rows.iter().filter(|row| row.method == method && under(row.control));
+            let told = |row: &Row| {
+                let what = match &row.outcome {
+                    Outcome::Failed(_) => "failed".to_owned(),
+                    outcome => outcome.trouble()?,
+                };
+                Some(format!("{what} in steps of {:e} / stiffness", row.ratio))
+            };
+            rows.filter_map(told).collect()
+        };
+        let (own, beside) = (wrong(&|control| control == ladder.control), wrong(&|control| control != ladder.control));
+        let words = match (own.is_empty(), limit) {
+            (true, Some(_)) => format!(
                 "positive, smooth and bounded in steps up to {:.0e} times the explicit limit",
                 RATIOS[RATIOS.len() - 1] / EXPLICIT_LIMIT
             ),
-            _ => wrong.join("; "),
+            (true, None) => "nothing that wears changes the pressure, so no step has a limit".to_owned(),
+            (false, _) => own.join("; "),
         };
-        OwnMethod { method, fine: wrong.is_empty(), words }
+        let other = if ladder.control == Pressed::Load { Pressed::Approach } else { Pressed::Load };
+        let beside = (!beside.is_empty())
+            .then(|| format!("under a given {}, which the scene does not have: {}", other.word(), beside.join("; ")));
+        OwnMethod { method, fine: own.is_empty(), words, beside }
     }
 }
 
