@@ -1,0 +1,124 @@
+//! A key that has no effect on a scene costs nothing: the same allocations as a scene that never had it.
+#![allow(unsafe_code)] // reason: an allocator that counts can be written in no other way
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+#[path = "support/solved.rs"]
+mod solved;
+
+use solved::{Case, archard};
+use wearlaw::record::{End, Nobody};
+use wearlaw::solve::Run;
+
+/// The system's allocator, counting calls and bytes of all threads.
+struct Counting;
+
+static CALLS: AtomicU64 = AtomicU64::new(0);
+static BYTES: AtomicU64 = AtomicU64::new(0);
+
+impl Counting {
+    fn count(bytes: usize) {
+        CALLS.fetch_add(1, Ordering::SeqCst);
+        BYTES.fetch_add(bytes as u64, Ordering::SeqCst);
+    }
+}
+
+// SAFETY: every call is handed to the system's allocator as it is.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        Counting::count(layout.size());
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        // SAFETY: the block came from the system's allocator, with this layout.
+        unsafe { System.dealloc(block, layout) }
+    }
+
+    unsafe fn realloc(&self, block: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        Counting::count(size);
+        // SAFETY: as for `dealloc`; the caller keeps the contract of `realloc`.
+        unsafe { System.realloc(block, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Calls and bytes of a run, its preparation included, the fewest of some: threads of the pool take a block for their
+/// queues now and then. The plan is not counted, it holds the keys.
+fn allocations(scene: &str) -> (u64, u64) {
+    (0..8).map(|_| allocations_once(scene)).min().unwrap_or_default()
+}
+
+fn allocations_once(scene: &str) -> (u64, u64) {
+    let (case, law) = (Case::text(scene), archard());
+    let plan = case.plan(&law);
+    let before = (CALLS.load(Ordering::SeqCst), BYTES.load(Ordering::SeqCst));
+    let run = Run::prepare(&plan, &law).expect("no files");
+    let record = run.go(1, &mut Nobody);
+    let after = (CALLS.load(Ordering::SeqCst), BYTES.load(Ordering::SeqCst));
+    assert!(matches!(record.end, End::Done), "{:?}\n{scene}", record.end);
+    (after.0 - before.0, after.1 - before.1)
+}
+
+/// A scene of four parts, to which keys can be added: the law's, the contact's, the step's, and further sections.
+type Scene = fn(&str, &str, &str, &str) -> String;
+
+fn ball(law: &str, contact: &str, step: &str, more: &str) -> String {
+    format!(
+        "[law]\nuse = \"archard\"\nconstants = [1e-13, 1.0, 1.0, 1.0]\n{law}\n\
+         [contact]\nmodel = \"halfspace\"\nmodulus = 1.1e11\n{contact}\n\
+         [grid]\nsize = [6e-4, 6e-4]\ncells = [12, 12]\n[surface]\nshape = \"sphere\"\nradius = 1e-2\n\
+         [[step]]\nduration = 0.02\nload = 20.0\nvelocity = 1.0\n{step}\n[integrator]\nsubsteps = 3\n{more}"
+    )
+}
+
+fn springs(law: &str, contact: &str, step: &str, more: &str) -> String {
+    format!(
+        "[law]\nuse = \"archard\"\nconstants = [1e-13, 1.0, 2.0, 1.0]\n{law}\n\
+         [contact]\nmodel = \"foundation\"\nstiffness = 1e12\ndimension = 2\n{contact}\n\
+         [grid]\nsize = [1e-3]\ncells = [16]\n[surface]\nshape = \"cylinder\"\nradius = 1e-2\n\
+         [[step]]\nduration = 1e-9\napproach = 1e-6\nvelocity = 1.0\n{step}\n[integrator]\nsubsteps = 3\n{more}"
+    )
+}
+
+fn prescribed(law: &str, contact: &str, step: &str, more: &str) -> String {
+    format!(
+        "[law]\nuse = \"archard\"\nconstants = [1e-4, 1e9, 1.0, 1.0]\n{law}\n\
+         [contact]\nmodel = \"prescribed\"\n{contact}\n\
+         [[step]]\nduration = 2.0\npressure = 1e6\nvelocity = 1.0\n{step}\n[integrator]\nsubsteps = 3\n{more}"
+    )
+}
+
+/// Keys in the scene's four parts.
+const IDLE: [[&str; 4]; 6] = [
+    ["", "friction = 0.3", "", ""],
+    ["", "", "temperature = 20.0", ""],
+    ["mode = \"apply\"", "", "", ""],
+    ["basis = \"pressure\"", "", "", ""],
+    ["average = false", "", "", ""],
+    ["", "", "", "[scaling]\nkind = \"none\"\n"],
+];
+
+// One test: another one beside it would be counted too.
+#[test]
+fn keys_of_no_effect_allocate_nothing() {
+    let scenes: [(&str, Scene); 3] = [("a ball", ball), ("springs", springs), ("a prescribed pressure", prescribed)];
+    for (name, scene) in scenes {
+        let plain = scene("", "", "", "");
+        let base = allocations(&plain);
+        assert!(base.0 > 10, "nothing was counted");
+        assert_eq!(allocations(&plain), base, "{name} does not allocate alike twice");
+        for [law, contact, step, more] in IDLE {
+            let found = allocations(&scene(law, contact, step, more));
+            assert_eq!(found, base, "{name} with {law}{contact}{step}{more}");
+        }
+        // A key that has an effect is seen.
+        let direction =
+            allocations(&scene("", "", "", "[output]\nfields = [\"wear\"]\nformats = [\"csv\"]\nevery = 1\n"));
+        assert_ne!(direction, base, "{name}");
+    }
+}
