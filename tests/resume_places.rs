@@ -43,7 +43,7 @@ impl Observer for All {
 /// What has to agree, with every bit of its numbers.
 fn bits(record: &Record<SolveError>) -> String {
     format!(
-        "{:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {}",
+        "{:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {}",
         record.history,
         record.wear,
         record.pressure,
@@ -52,6 +52,7 @@ fn bits(record: &Record<SolveError>) -> String {
         record.largest_step,
         record.warnings,
         record.profile,
+        record.stability,
         record.end,
         record.cost.steps,
     )
@@ -97,6 +98,23 @@ fn substeps_of_every_method_and_law() {
     every_place(&memory::<RunningIn>(None), &format!("{REMEMBERS}{BODIES}{GRID}{CYCLES}{integrator}"));
     let post = format!("{ARCHARD}mode = \"post\"\n{BODIES}{GRID}{CYCLES}{integrator}");
     every_place(&archard(), &post);
+}
+
+#[test]
+fn explicit_substeps_on_both_sides_of_the_limit() {
+    for beyond in ["substep", "run"] {
+        for substeps in [2, 400] {
+            let integrator = format!(
+                "[integrator]\nmethod = \"explicit-euler\"\nbeyond_limit = \"{beyond}\"\nsubsteps = {substeps}\n"
+            );
+            // Two substeps a load step are beyond the limit of both contacts, 400 within it.
+            let cycles = CYCLES.replace("count = 12", "count = 2");
+            every_place(&archard(), &format!("{ARCHARD}{BODIES}{GRID}{cycles}{integrator}"));
+            let slow = cycles.replace("duration = 0.", "duration = ").replace("stick = 2e-5\n", "");
+            let soft = ARCHARD.replace("1e-4", "1e-3");
+            every_place(&archard(), &format!("{soft}{SPRINGS}{GRID}{slow}{integrator}"));
+        }
+    }
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::system::{Substep, System};
 use crate::contact::Control;
 use crate::integrator::{Formula, Reply};
 use crate::plan::{Elastic, Slope};
-use crate::record::Stability;
+use crate::record::{Checkpoint, CheckpointError, Stability};
 use crate::scene::{BeyondLimit, Mode};
 use crate::solve::{PointError, SolveError};
 use crate::stability::stiffness::{Basis, Linearised, Stiffness, measure};
@@ -38,15 +38,27 @@ pub(super) struct Measured {
     /// Cells in contact that were left out because the law is concave there.
     pub(super) left_out: usize,
     pub(super) touching: usize,
-    load_given: bool,
     /// The cell with the largest slope.
     steepest: usize,
+}
+
+/// What later steps are compared with.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    /// The stiffness; per time.
+    per_time: f64,
+    /// The cell with the largest slope, and that slope.
+    steepest: usize,
+    slope: f64,
+    /// Cells in contact.
+    touching: usize,
+    load_given: bool,
 }
 
 /// What is known of the limit during a run.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
-    last: Option<Measured>,
+    last: Option<Known>,
     measured: Option<f64>,
     left_out: usize,
     /// Steps that were cut, and steps that were taken although they were too long.
@@ -139,7 +151,7 @@ impl System<'_> {
         self.work.fft_pairs += stiffness.fft_pairs;
         let largest = |best: usize, cell: usize| if slopes[cell] > slopes[best] { cell } else { best };
         let steepest = (0..slopes.len()).fold(0, largest);
-        Ok(Measured { stiffness, slopes, left_out, touching, load_given, steepest })
+        Ok(Measured { stiffness, slopes, left_out, touching, steepest })
     }
 }
 
@@ -235,9 +247,9 @@ impl<'p> Coupled<'p> {
             driven.velocity = end;
         }
         let load_given = matches!(driven.control, Control::Load(_));
-        if let Some(last) = going.watch.last.as_ref().filter(|last| last.load_given == load_given) {
+        if let Some(last) = going.watch.last.filter(|last| last.load_given == load_given) {
             let touching = system.pressure.iter().filter(|p| **p > 0.0).count();
-            let (cell, before, known) = (last.steepest, last.slopes[last.steepest], last.touching);
+            let (cell, before, known) = (last.steepest, last.slope, last.touching);
             let slope = system.slope_at(driven, cell).map_err(advance)?;
             let begins = number == 1;
             let grown = (touching as f64 / known as f64 - 1.0).abs();
@@ -249,7 +261,7 @@ impl<'p> Coupled<'p> {
             };
             if same {
                 let ratio = if before > 0.0 { slope / before } else { 1.0 };
-                return Ok(explicit_limit(last.stiffness.per_time * ratio));
+                return Ok(explicit_limit(last.per_time * ratio));
             }
         }
         let measured = system.stiffness(driven, load_given, false).map_err(advance)?;
@@ -257,12 +269,65 @@ impl<'p> Coupled<'p> {
         let watch = &mut going.watch;
         watch.measured = Some(watch.measured.map_or(found, |most| most.max(found)));
         watch.left_out = watch.left_out.max(measured.left_out);
-        watch.last = Some(measured);
+        watch.last = Some(Known {
+            per_time: found,
+            steepest: measured.steepest,
+            slope: measured.slopes[measured.steepest],
+            touching: measured.touching,
+            load_given,
+        });
         Ok(explicit_limit(found))
     }
 }
 
 impl Watch {
+    /// Keeps what later steps and the report depend on.
+    pub(super) fn save(&self, to: &mut Checkpoint<'_>) {
+        let mut set = |name: &str, value: f64| to.set(&format!("limit.{name}"), value);
+        set("measured", self.measured.unwrap_or(-1.0));
+        set("left_out", self.left_out as f64);
+        set("cut", self.cut as f64);
+        set("beyond", self.beyond as f64);
+        set("known", f64::from(u8::from(self.last.is_some())));
+        if let Some(last) = self.last {
+            set("per_time", last.per_time);
+            set("steepest", last.steepest as f64);
+            set("slope", last.slope);
+            set("touching", last.touching as f64);
+            set("load_given", f64::from(u8::from(last.load_given)));
+        }
+    }
+
+    /// Takes up what [`Watch::save`] kept of a run on so many cells.
+    ///
+    /// # Errors
+    /// A number that is not there, or a cell that the grid does not have.
+    pub(super) fn load(from: &Checkpoint<'_>, cells: usize) -> Result<Watch, CheckpointError> {
+        let number = |name: &str| from.number(&format!("limit.{name}"));
+        let last = if number("known")? > 0.0 {
+            let steepest = number("steepest")?;
+            if !(steepest >= 0.0 && steepest < cells as f64) {
+                return Err(CheckpointError::Place { found: "a cell that the grid does not have".to_owned() });
+            }
+            Some(Known {
+                per_time: number("per_time")?,
+                steepest: steepest as usize,
+                slope: number("slope")?,
+                touching: number("touching")? as usize,
+                load_given: number("load_given")? > 0.0,
+            })
+        } else {
+            None
+        };
+        Ok(Watch {
+            last,
+            measured: Some(number("measured")?).filter(|stiffness| *stiffness >= 0.0),
+            left_out: number("left_out")? as usize,
+            cut: number("cut")? as u64,
+            beyond: number("beyond")? as u64,
+        })
+    }
+
     /// What a report says, after so many steps.
     pub(super) fn told(&self, run: &Coupled<'_>, steps: u64) -> Stability {
         let limit = self.measured.map(explicit_limit).filter(|limit| limit.is_finite());

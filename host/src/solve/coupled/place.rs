@@ -1,9 +1,11 @@
 //! Where a run is in its loading, and what it saves there to go on from.
 
 use super::going::Going;
+use super::limit::Watch;
 use super::rows::Clock;
 use super::system::System;
 use crate::contact::{Control as Pressing, Solution};
+use crate::integrator::Formula;
 use crate::law::Evaluator;
 use crate::plan::{Block, FieldKind, Plan};
 use crate::record::{Checkpoint, CheckpointError, Event};
@@ -167,6 +169,9 @@ impl Going<'_> {
         };
         let to = &mut checkpoint;
         self.place.save(to);
+        if system.solved.scheme.formula == Formula::ExplicitEuler {
+            self.watch.save(to);
+        }
         let flag = |on: bool| f64::from(u8::from(on));
         let Clock { simulated, represented, cycles, temperature } = self.clock;
         let (pressed, pressed_by) = control_numbers(self.pressed);
@@ -231,6 +236,9 @@ impl Going<'_> {
             cycles: from.number("clock.cycles")?,
             temperature: from.number("clock.temperature")?,
         };
+        if system.solved.scheme.formula == Formula::ExplicitEuler {
+            self.watch = Watch::load(from, system.pressure.len())?;
+        }
         self.history = (*from.history).clone();
         self.warnings = from.warnings.to_vec();
         self.asides = from.asides.to_vec();
