@@ -127,7 +127,7 @@ fn a_failure_tells_its_author_what_to_do_and_can_be_run_again() {
 #[test]
 fn a_crash_names_the_call_the_point_and_its_inputs_and_comes_back() {
     let here = folder();
-    library(here.path(), "mine", "if (in->slip > 1e100) { int *volatile p = NULL; *p = 1; }");
+    library(here.path(), "mine", "if (in->slip > 1e100) { volatile int *volatile p = NULL; *p = 1; }");
     let ended = run(here.path(), &["check", "mine.so", "--only", "faults,values,batch", "--json"]);
     assert_eq!(ended.code, 1);
     let document = json(&ended.stdout);
@@ -263,9 +263,12 @@ fn sources_are_built_and_every_law_of_a_library_is_checked() {
 fn nothing_is_left_of_laws_that_fork_and_hang() {
     let here = folder();
     let temporary = folder();
+    // Seconds of sleep that no other process of the machine sleeps.
+    let long = (900_000_000 + u64::from(std::process::id())).to_string();
     // A child in a session of its own, with a child; then the law hangs, crashes, or goes on.
     let fork = "if (in->pressure > 1e100) { if (fork() == 0) { setsid(); putenv(\"A=b\"); if (fork() == 0) \
-                execl(\"/bin/sleep\", \"sleep\", \"987654\", (char *)NULL); for (;;) pause(); } ";
+                execl(\"/bin/sleep\", \"sleep\", \"LONG\", (char *)NULL); for (;;) pause(); } ";
+    let fork = fork.replace("LONG", &long);
     library(here.path(), "hangs", &format!("{fork} for (;;) pause(); }}"));
     library(here.path(), "crashes", &format!("{fork} abort(); }}"));
     library(here.path(), "goes_on", &format!("{fork} }}"));
@@ -280,7 +283,7 @@ fn nothing_is_left_of_laws_that_fork_and_hang() {
         processes
             .filter(|process| {
                 let line = std::fs::read(process.path().join("cmdline")).unwrap_or_default();
-                line.windows(6).any(|word| word == b"987654")
+                line.windows(long.len()).any(|word| word == long.as_bytes())
             })
             .count()
     };

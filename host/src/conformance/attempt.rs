@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
-use std::os::fd::{AsFd, AsRawFd};
+use std::os::fd::{AsFd, AsRawFd, RawFd};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::ExitStatus;
@@ -48,6 +48,8 @@ static NEXT: AtomicU64 = AtomicU64::new(0);
 
 /// Name of the variable by which everything that a worker starts is known.
 const MARK: &str = "WEARLAW_CHECK_WORKER";
+/// Name of the memory that a worker shares with the checker, as the system lists it.
+const MEMORY: &str = "memfd:wearlaw-check";
 /// How often a wish to end is looked for.
 const LOOK: Duration = Duration::from_millis(100);
 /// How long a process may take to be gone once its channel is closed, or to end when it only has to write out.
@@ -80,6 +82,7 @@ pub(super) fn attempt(program: &Path, task: &Task, timeout: Duration, stop: &Ato
         process
     };
     drop(to_checker);
+    never_waits(from.as_raw_fd())?;
     let mut ended = waited(&process, from.as_raw_fd(), timeout, stop);
     if let Ok(Ended::Silent) = ended {
         let mut byte = [0];
@@ -122,6 +125,14 @@ fn waited(process: &Process, pipe: i32, timeout: Duration, stop: &AtomicBool) ->
     }
 }
 
+/// Reading from this pipe tells that there is nothing instead of waiting: what a dead worker has started may hold the
+/// other end open for ever.
+fn never_waits(pipe: RawFd) -> io::Result<()> {
+    // SAFETY: takes integers; the descriptor is this process's own, and the other end has flags of its own.
+    let set = unsafe { libc::fcntl(pipe, libc::F_SETFL, libc::O_NONBLOCK) };
+    if set < 0 { Err(io::Error::last_os_error()) } else { Ok(()) }
+}
+
 fn answered(slate: &Slate) -> Ended {
     match serde_json::from_slice::<Answer>(&slate.answer()) {
         Ok(answer) => Ended::Answered(Box::new(answer)),
@@ -138,8 +149,8 @@ fn read_printed(file: &mut File) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Ends what a crashed worker left behind: it has become a child of this process, as the next subreaper, and still
-/// carries the mark of a worker.
+/// Ends what a worker left behind whose keeper was ended, too: it has become a child of this process, as the next
+/// subreaper, and still carries the mark of a worker.
 fn sweep(running: &BTreeSet<u32>) {
     for _ in 0..16 {
         let left: Vec<libc::pid_t> = children().into_iter().filter(|child| is_left_behind(*child, running)).collect();
@@ -164,6 +175,11 @@ fn is_left_behind(child: libc::pid_t, running: &BTreeSet<u32>) -> bool {
     let environment = || std::fs::read(format!("/proc/{child}/environ")).unwrap_or_default();
     let found = environment();
     if found.split(|byte| *byte == 0).any(|pair| pair.starts_with(MARK.as_bytes())) {
+        return true;
+    }
+    // One that was forked and wiped its environment still has the memory that its worker shared.
+    let maps = std::fs::read_to_string(format!("/proc/{child}/maps")).unwrap_or_default();
+    if maps.contains(MEMORY) {
         return true;
     }
     // A program that was started without any environment has no mark. One that has ended has none to show, nor has one
