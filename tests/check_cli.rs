@@ -148,6 +148,36 @@ fn a_crash_names_the_call_the_point_and_its_inputs_and_comes_back() {
 }
 
 #[test]
+fn a_state_that_overflows_and_a_row_that_no_host_gives_are_found() {
+    let here = folder();
+    let state = "#define LAW_STATE(S) S(distance, WL_METRE, WL_FROM(0), 0, \"sliding distance\")\n#include \"wearlaw_p";
+    let count = "out->state.distance = s->distance + fabs(in->slip);\n\
+                 if (!isfinite(in->slip) || !isfinite(s->distance)) return WL_OUT_OF_DOMAIN;";
+    write(here.path(), "mine.c", &LAW.replace("#include \"wearlaw_p", state).replace("FAULT", count));
+    let document = json(&run(here.path(), &["check", "mine.c", "--only", "values", "--json"]).stdout);
+    assert_eq!(outcomes(&document, "fail"), ["values/extremes"]);
+    let found = of(&document, "values/extremes")["found"].as_str().unwrap_or("").to_owned();
+    assert_eq!(found, "status 0, state inf");
+
+    let head = "K,H,pressure,slip,dt,increment\n";
+    let told = |row: &str, fault: &str| {
+        write(here.path(), "mine.c", &LAW.replace("FAULT", fault));
+        write(here.path(), "expected.csv", &format!("{head}{row}\n"));
+        let ended = run(here.path(), &["check", "mine.c", "--only", "values/expected", "--json"]);
+        let document = json(&ended.stdout);
+        (ended.code, of(&document, "values/expected")["what"].as_str().unwrap_or("").to_owned())
+    };
+    let (code, what) = told("-1,2e9,5e7,1e-3,1,-2.5e-5", "");
+    assert!(
+        code == 1 && what.ends_with("row 1: K = -1 lies outside of its bounds, so no host gives it to the law"),
+        "{what}"
+    );
+    let (code, what) = told("1e-4,2e9,5e7,1e-3,1,2.5e-9", "return WL_UNRELIABLE;");
+    assert!(code == 1 && what.ends_with("row 1 is answered as unreliable"), "{what}");
+    assert_eq!(told("1e-4,2e9,5e7,1e-3,1,2.5e-9", ""), (0, String::new()));
+}
+
+#[test]
 fn each_ending_is_told_by_its_own_check() {
     let here = folder();
     let ending = |name: &str, fault: &str| {

@@ -151,17 +151,21 @@ pub(crate) fn signal(process: libc::pid_t, number: i32) {
     unsafe { libc::kill(process, number) };
 }
 
+/// How long processes that were killed may take to be gone.
+const REAPING: Duration = Duration::from_secs(2);
+
 /// Takes the ended processes of a worker's family off the list: they are this process's children once it is gone.
 fn reap(group: libc::pid_t, family: &[libc::pid_t]) {
-    let patience = Instant::now() + Duration::from_millis(200);
+    let patience = Instant::now() + REAPING;
     let mut left: Vec<libc::pid_t> = family.to_vec();
     left.push(-group);
     while !left.is_empty() && Instant::now() < patience {
         left.retain(|process| {
             // SAFETY: a null pointer means that the status is not wanted.
             let answer = unsafe { libc::waitpid(*process, std::ptr::null_mut(), libc::WNOHANG) };
-            // Of a group there may be more; an error means that there is none.
-            answer == 0 || (answer > 0 && *process < 0)
+            // Of a group there may be more; an error means that there is none, or one whose parent is only just dying.
+            let dying = || *process > 0 && Path::new(&format!("/proc/{process}")).exists();
+            answer == 0 || (answer > 0 && *process < 0) || (answer < 0 && dying())
         });
         if !left.is_empty() {
             std::thread::sleep(Duration::from_millis(1));
