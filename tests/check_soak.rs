@@ -38,7 +38,7 @@ fn nothing_is_left_of_many_checks_of_laws_that_break_out() {
         laws::build(folder.path(), bad);
     }
     let mut inner = Command::new(std::env::current_exe().expect("this test"));
-    inner.args(["--exact", "rounds", "--ignored", "--nocapture"]);
+    inner.args(["--exact", "rounds", "--nocapture"]);
     inner.env(ROUNDS, rounds.to_string()).env(FOLDER, folder.path()).env("TMPDIR", temporary.path());
     let mut inner = inner.spawn().expect("this test starts once more");
     let status = inner.wait().expect("it ends");
@@ -49,14 +49,13 @@ fn nothing_is_left_of_many_checks_of_laws_that_break_out() {
     assert!(files.is_empty(), "temporary files: {files:?}");
 }
 
+/// Does nothing by itself: the other test runs it in a process of its own.
 #[test]
-#[ignore = "the other test runs it in a process of its own"]
 fn rounds() {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<usize>().ok());
     let (rounds, folder) = match (number(ROUNDS), std::env::var_os(FOLDER)) {
         (Some(rounds), Some(folder)) => (rounds, PathBuf::from(folder)),
         _ => {
-            // Run by hand with all ignored tests: there is nothing to do without the other test.
             assert!(std::env::var_os(ROUNDS).is_none(), "the folder of the laws is not said");
             return;
         }

@@ -16,7 +16,7 @@ use super::WORKER_COMMAND;
 use super::check::Check;
 use super::message::{Answer, Task};
 use super::slate::{Crumb, Slate, memory_file};
-use crate::law::isolate::process::{Event, Process, descendants, signal};
+use crate::law::isolate::process::{Event, Process, descendants, reap, signal, started};
 
 /// How a worker ended.
 #[derive(Debug)]
@@ -56,6 +56,8 @@ const LOOK: Duration = Duration::from_millis(100);
 const GOING: Duration = Duration::from_secs(2);
 /// How long a process may have no environment yet while it is started.
 const STARTING: Duration = Duration::from_millis(20);
+/// Letters of a program's name that the system keeps.
+const SHORT: usize = 15;
 /// Most of what was printed that is kept.
 const PRINTED: u64 = 1 << 16;
 
@@ -101,7 +103,7 @@ pub(super) fn attempt(program: &Path, task: &Task, timeout: Duration, stop: &Ato
     process.end();
     {
         let mut running = lock();
-        sweep(&running);
+        sweep(&running, &short_name(program));
         running.remove(&process.id());
     }
     Ok(Attempt { ended: ended?, crumb, printed: read_printed(&mut printed) })
@@ -151,44 +153,64 @@ fn read_printed(file: &mut File) -> String {
 
 /// Ends what a worker left behind whose keeper was ended, too: it has become a child of this process, as the next
 /// subreaper, and still carries the mark of a worker.
-fn sweep(running: &BTreeSet<u32>) {
+fn sweep(running: &BTreeSet<u32>, program: &str) {
+    let mut family = Vec::new();
     for _ in 0..16 {
-        let left: Vec<libc::pid_t> = children().into_iter().filter(|child| is_left_behind(*child, running)).collect();
+        let left: Vec<libc::pid_t> =
+            children().into_iter().filter(|child| is_left_behind(*child, running, program)).collect();
         if left.is_empty() {
-            return;
+            break;
         }
         for child in left {
             // Stopped first, so that it starts nothing more meanwhile.
             signal(child, libc::SIGSTOP);
-            descendants(child).into_iter().for_each(|process| signal(process, libc::SIGKILL));
+            let below = descendants(child);
+            below.iter().for_each(|process| signal(*process, libc::SIGKILL));
             signal(child, libc::SIGKILL);
             // SAFETY: a null pointer means that the status is not wanted; the child was just killed.
             unsafe { libc::waitpid(child, std::ptr::null_mut(), 0) };
+            family.extend(below);
         }
     }
+    reap(family);
 }
 
-fn is_left_behind(child: libc::pid_t, running: &BTreeSet<u32>) -> bool {
-    if u32::try_from(child).is_ok_and(|child| running.contains(&child)) {
+fn is_left_behind(child: libc::pid_t, running: &BTreeSet<u32>, program: &str) -> bool {
+    let number = u32::try_from(child).unwrap_or_default();
+    if running.contains(&number) {
         return false;
     }
-    let environment = || std::fs::read(format!("/proc/{child}/environ")).unwrap_or_default();
-    let found = environment();
-    if found.split(|byte| *byte == 0).any(|pair| pair.starts_with(MARK.as_bytes())) {
-        return true;
-    }
-    // One that was forked and wiped its environment still has the memory that its worker shared.
-    let maps = std::fs::read_to_string(format!("/proc/{child}/maps")).unwrap_or_default();
-    if maps.contains(MEMORY) {
-        return true;
-    }
-    // A program that was started without any environment has no mark. One that has ended has none to show, nor has one
-    // that is just about to start.
-    let bare = |environment: Vec<u8>| environment.is_empty() && !is_zombie(child);
-    bare(found) && {
+    let read = |name: &str| std::fs::read(format!("/proc/{child}/{name}")).unwrap_or_default();
+    let holds = |bytes: &[u8], word: &str| bytes.windows(word.len()).any(|window| window == word.as_bytes());
+    for last in [false, true] {
+        if is_zombie(child) {
+            // It shows nothing but the name of its program, which other workers of this process have, too.
+            return program_of(child) == program && !started().contains(&number);
+        }
+        let environment = read("environ");
+        // One that was forked and wiped its environment still has the memory that its worker shared.
+        if holds(&environment, MARK) || holds(&read("maps"), MEMORY) {
+            return true;
+        }
+        // A program that was started without any environment has no mark. One that is just ending has none to show,
+        // nor has one that is just about to start.
+        if !environment.is_empty() || last {
+            return environment.is_empty();
+        }
         std::thread::sleep(STARTING);
-        bare(environment())
     }
+    false
+}
+
+/// The short name of a process's program, also of one that has ended.
+fn program_of(process: libc::pid_t) -> String {
+    std::fs::read_to_string(format!("/proc/{process}/comm")).unwrap_or_default().trim_end().to_owned()
+}
+
+/// The short name that the system gives to processes of a program.
+fn short_name(program: &Path) -> String {
+    let name = program.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    name.chars().take(SHORT).collect()
 }
 
 fn is_zombie(process: libc::pid_t) -> bool {
@@ -257,7 +279,7 @@ mod tests {
     fn a_process_of_somebody_else_is_not_taken_for_one_that_was_left_behind() {
         let mut other = std::process::Command::new("sleep").arg("20").spawn().expect("sleep is everywhere");
         let id = other.id() as libc::pid_t;
-        assert!(!is_left_behind(id, &BTreeSet::new()));
+        assert!(!is_left_behind(id, &BTreeSet::new(), "wearlaw"));
         other.kill().and_then(|()| other.wait()).expect("it is a child of this process");
     }
 
@@ -267,11 +289,11 @@ mod tests {
         let id = marked.id();
         // Between fork and exec it has this process's own environment.
         let patience = Instant::now() + Duration::from_secs(5);
-        while !is_left_behind(id as libc::pid_t, &BTreeSet::new()) && Instant::now() < patience {
+        while !is_left_behind(id as libc::pid_t, &BTreeSet::new(), "wearlaw") && Instant::now() < patience {
             std::thread::sleep(Duration::from_millis(1));
         }
-        assert!(is_left_behind(id as libc::pid_t, &BTreeSet::new()));
-        assert!(!is_left_behind(id as libc::pid_t, &BTreeSet::from([id])));
+        assert!(is_left_behind(id as libc::pid_t, &BTreeSet::new(), "wearlaw"));
+        assert!(!is_left_behind(id as libc::pid_t, &BTreeSet::from([id]), "wearlaw"));
         marked.kill().and_then(|()| marked.wait()).expect("it is a child of this process");
     }
 
