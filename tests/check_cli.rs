@@ -127,7 +127,7 @@ fn a_failure_tells_its_author_what_to_do_and_can_be_run_again() {
 #[test]
 fn a_crash_names_the_call_the_point_and_its_inputs_and_comes_back() {
     let here = folder();
-    library(here.path(), "mine", "if (in->slip > 1e100) { int *volatile p = NULL; *p = 1; }");
+    library(here.path(), "mine", "if (in->slip > 1e100) { volatile int *volatile p = NULL; *p = 1; }");
     let ended = run(here.path(), &["check", "mine.so", "--only", "faults,values,batch", "--json"]);
     assert_eq!(ended.code, 1);
     let document = json(&ended.stdout);
@@ -145,6 +145,36 @@ fn a_crash_names_the_call_the_point_and_its_inputs_and_comes_back() {
     let replay = found["replay"].as_str().expect("a file to bring it back").to_owned();
     let again = json(&run(here.path(), &["check", "mine.so", "--replay", &replay, "--json"]).stdout);
     assert_eq!(of(&again, "faults/signal")["input"], found["input"]);
+}
+
+#[test]
+fn a_state_that_overflows_and_a_row_that_no_host_gives_are_found() {
+    let here = folder();
+    let state = "#define LAW_STATE(S) S(distance, WL_METRE, WL_FROM(0), 0, \"sliding distance\")\n#include \"wearlaw_p";
+    let count = "out->state.distance = s->distance + fabs(in->slip);\n\
+                 if (!isfinite(in->slip) || !isfinite(s->distance)) return WL_OUT_OF_DOMAIN;";
+    write(here.path(), "mine.c", &LAW.replace("#include \"wearlaw_p", state).replace("FAULT", count));
+    let document = json(&run(here.path(), &["check", "mine.c", "--only", "values", "--json"]).stdout);
+    assert_eq!(outcomes(&document, "fail"), ["values/extremes"]);
+    let found = of(&document, "values/extremes")["found"].as_str().unwrap_or("").to_owned();
+    assert_eq!(found, "status 0, state inf");
+
+    let head = "K,H,pressure,slip,dt,increment\n";
+    let told = |row: &str, fault: &str| {
+        write(here.path(), "mine.c", &LAW.replace("FAULT", fault));
+        write(here.path(), "expected.csv", &format!("{head}{row}\n"));
+        let ended = run(here.path(), &["check", "mine.c", "--only", "values/expected", "--json"]);
+        let document = json(&ended.stdout);
+        (ended.code, of(&document, "values/expected")["what"].as_str().unwrap_or("").to_owned())
+    };
+    let (code, what) = told("-1,2e9,5e7,1e-3,1,-2.5e-5", "");
+    assert!(
+        code == 1 && what.ends_with("row 1: K = -1 lies outside of its bounds, so no host gives it to the law"),
+        "{what}"
+    );
+    let (code, what) = told("1e-4,2e9,5e7,1e-3,1,2.5e-9", "return WL_UNRELIABLE;");
+    assert!(code == 1 && what.ends_with("row 1 is answered as unreliable"), "{what}");
+    assert_eq!(told("1e-4,2e9,5e7,1e-3,1,2.5e-9", ""), (0, String::new()));
 }
 
 #[test]
@@ -263,9 +293,12 @@ fn sources_are_built_and_every_law_of_a_library_is_checked() {
 fn nothing_is_left_of_laws_that_fork_and_hang() {
     let here = folder();
     let temporary = folder();
+    // Seconds of sleep that no other process of the machine sleeps.
+    let long = (900_000_000 + u64::from(std::process::id())).to_string();
     // A child in a session of its own, with a child; then the law hangs, crashes, or goes on.
     let fork = "if (in->pressure > 1e100) { if (fork() == 0) { setsid(); putenv(\"A=b\"); if (fork() == 0) \
-                execl(\"/bin/sleep\", \"sleep\", \"987654\", (char *)NULL); for (;;) pause(); } ";
+                execl(\"/bin/sleep\", \"sleep\", \"LONG\", (char *)NULL); for (;;) pause(); } ";
+    let fork = fork.replace("LONG", &long);
     library(here.path(), "hangs", &format!("{fork} for (;;) pause(); }}"));
     library(here.path(), "crashes", &format!("{fork} abort(); }}"));
     library(here.path(), "goes_on", &format!("{fork} }}"));
@@ -280,7 +313,7 @@ fn nothing_is_left_of_laws_that_fork_and_hang() {
         processes
             .filter(|process| {
                 let line = std::fs::read(process.path().join("cmdline")).unwrap_or_default();
-                line.windows(6).any(|word| word == b"987654")
+                line.windows(long.len()).any(|word| word == long.as_bytes())
             })
             .count()
     };

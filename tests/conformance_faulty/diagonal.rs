@@ -15,11 +15,10 @@ const PART: usize = 10;
 /// Each check and its outcome.
 type Outcomes = BTreeMap<String, String>;
 
-/// Runs the tester in a folder of its own, which takes its replay files.
-fn check(library: &Path, more: &[&str]) -> (i32, Outcomes) {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+/// Runs the tester in a folder, which takes its replay files; its exit code and its report.
+fn report(folder: &Path, library: &Path, more: &[&str]) -> (i32, Value) {
     let output = Command::new(env!("CARGO_BIN_EXE_wearlaw"))
-        .current_dir(folder.path())
+        .current_dir(folder)
         .arg("check")
         .arg(library)
         .args(["--json", "-q", "--threads", "1"])
@@ -30,10 +29,17 @@ fn check(library: &Path, more: &[&str]) -> (i32, Outcomes) {
     let (code, text) = (output.status.code(), String::from_utf8_lossy(&output.stdout));
     let document: Value =
         serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}: {text} {output:?}", library.display()));
+    (code.expect("no signal ends the tester"), document)
+}
+
+/// Runs the tester in a folder of its own; its exit code, and the outcome of each check.
+fn check(library: &Path, more: &[&str]) -> (i32, Outcomes) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (code, document) = report(folder.path(), library, more);
     let rows = document["checks"].as_array().unwrap_or_else(|| panic!("{}: {document}", library.display()));
     let word = |row: &Value, key: &str| row[key].as_str().expect("a word").to_owned();
     let outcomes = rows.iter().map(|row| (word(row, "check"), word(row, "outcome"))).collect();
-    (code.expect("no signal ends the tester"), outcomes)
+    (code, outcomes)
 }
 
 /// The checks that found something.
@@ -107,4 +113,22 @@ fn sound_and_suspicious_laws_pass() {
     let wrong = laws.iter().zip(&found).filter(|(_, (code, outcomes))| *code != 0 || !failed(outcomes).is_empty());
     let wrong: Vec<String> = wrong.map(|(law, (_, found))| format!("{}: {:?}", law.display(), failed(found))).collect();
     assert!(wrong.is_empty(), "good laws that are failed:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_crash_at_one_input_in_a_million_comes_back_at_the_first_try() {
+    let law = library("faulty", "crashes_once_in_a_million.c");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let crash = |more: &[&str]| {
+        let (code, document) = report(folder.path(), &law, more);
+        let rows = document["checks"].as_array().cloned().unwrap_or_default();
+        let crash = rows.into_iter().find(|row| row["outcome"] == "crashed").unwrap_or_else(|| panic!("{document:#}"));
+        assert_eq!(code, 1, "{document:#}");
+        crash
+    };
+    let first = crash(&["--only", "faults/signal"]);
+    assert!(first["what"].as_str().is_some_and(|what| what.contains("one point of them is enough")), "{first:#}");
+    let replay = first["replay"].as_str().expect("a file that brings it back");
+    let again = crash(&["--replay", replay]);
+    assert_eq!((&again["check"], &again["input"]), (&first["check"], &first["input"]));
 }

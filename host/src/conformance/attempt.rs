@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
-use std::os::fd::{AsFd, AsRawFd};
+use std::os::fd::{AsFd, AsRawFd, RawFd};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::ExitStatus;
@@ -16,7 +16,7 @@ use super::WORKER_COMMAND;
 use super::check::Check;
 use super::message::{Answer, Task};
 use super::slate::{Crumb, Slate, memory_file};
-use crate::law::isolate::process::{Event, Process, descendants, signal};
+use crate::law::isolate::process::{Event, Process, descendants, reap, signal, started};
 
 /// How a worker ended.
 #[derive(Debug)]
@@ -48,12 +48,16 @@ static NEXT: AtomicU64 = AtomicU64::new(0);
 
 /// Name of the variable by which everything that a worker starts is known.
 const MARK: &str = "WEARLAW_CHECK_WORKER";
+/// Name of the memory that a worker shares with the checker, as the system lists it.
+const MEMORY: &str = "memfd:wearlaw-check";
 /// How often a wish to end is looked for.
 const LOOK: Duration = Duration::from_millis(100);
 /// How long a process may take to be gone once its channel is closed, or to end when it only has to write out.
 const GOING: Duration = Duration::from_secs(2);
 /// How long a process may have no environment yet while it is started.
 const STARTING: Duration = Duration::from_millis(20);
+/// Letters of a program's name that the system keeps.
+const SHORT: usize = 15;
 /// Most of what was printed that is kept.
 const PRINTED: u64 = 1 << 16;
 
@@ -80,6 +84,7 @@ pub(super) fn attempt(program: &Path, task: &Task, timeout: Duration, stop: &Ato
         process
     };
     drop(to_checker);
+    never_waits(from.as_raw_fd())?;
     let mut ended = waited(&process, from.as_raw_fd(), timeout, stop);
     if let Ok(Ended::Silent) = ended {
         let mut byte = [0];
@@ -98,7 +103,7 @@ pub(super) fn attempt(program: &Path, task: &Task, timeout: Duration, stop: &Ato
     process.end();
     {
         let mut running = lock();
-        sweep(&running);
+        sweep(&running, &short_name(program));
         running.remove(&process.id());
     }
     Ok(Attempt { ended: ended?, crumb, printed: read_printed(&mut printed) })
@@ -122,6 +127,14 @@ fn waited(process: &Process, pipe: i32, timeout: Duration, stop: &AtomicBool) ->
     }
 }
 
+/// Reading from this pipe tells that there is nothing instead of waiting: what a dead worker has started may hold the
+/// other end open for ever.
+fn never_waits(pipe: RawFd) -> io::Result<()> {
+    // SAFETY: takes integers; the descriptor is this process's own, and the other end has flags of its own.
+    let set = unsafe { libc::fcntl(pipe, libc::F_SETFL, libc::O_NONBLOCK) };
+    if set < 0 { Err(io::Error::last_os_error()) } else { Ok(()) }
+}
+
 fn answered(slate: &Slate) -> Ended {
     match serde_json::from_slice::<Answer>(&slate.answer()) {
         Ok(answer) => Ended::Answered(Box::new(answer)),
@@ -138,41 +151,66 @@ fn read_printed(file: &mut File) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Ends what a crashed worker left behind: it has become a child of this process, as the next subreaper, and still
-/// carries the mark of a worker.
-fn sweep(running: &BTreeSet<u32>) {
+/// Ends what a worker left behind whose keeper was ended, too: it has become a child of this process, as the next
+/// subreaper, and still carries the mark of a worker.
+fn sweep(running: &BTreeSet<u32>, program: &str) {
+    let mut family = Vec::new();
     for _ in 0..16 {
-        let left: Vec<libc::pid_t> = children().into_iter().filter(|child| is_left_behind(*child, running)).collect();
+        let left: Vec<libc::pid_t> =
+            children().into_iter().filter(|child| is_left_behind(*child, running, program)).collect();
         if left.is_empty() {
-            return;
+            break;
         }
         for child in left {
             // Stopped first, so that it starts nothing more meanwhile.
             signal(child, libc::SIGSTOP);
-            descendants(child).into_iter().for_each(|process| signal(process, libc::SIGKILL));
+            let below = descendants(child);
+            below.iter().for_each(|process| signal(*process, libc::SIGKILL));
             signal(child, libc::SIGKILL);
             // SAFETY: a null pointer means that the status is not wanted; the child was just killed.
             unsafe { libc::waitpid(child, std::ptr::null_mut(), 0) };
+            family.extend(below);
         }
     }
+    reap(family);
 }
 
-fn is_left_behind(child: libc::pid_t, running: &BTreeSet<u32>) -> bool {
-    if u32::try_from(child).is_ok_and(|child| running.contains(&child)) {
+fn is_left_behind(child: libc::pid_t, running: &BTreeSet<u32>, program: &str) -> bool {
+    let number = u32::try_from(child).unwrap_or_default();
+    if running.contains(&number) {
         return false;
     }
-    let environment = || std::fs::read(format!("/proc/{child}/environ")).unwrap_or_default();
-    let found = environment();
-    if found.split(|byte| *byte == 0).any(|pair| pair.starts_with(MARK.as_bytes())) {
-        return true;
-    }
-    // A program that was started without any environment has no mark. One that has ended has none to show, nor has one
-    // that is just about to start.
-    let bare = |environment: Vec<u8>| environment.is_empty() && !is_zombie(child);
-    bare(found) && {
+    let read = |name: &str| std::fs::read(format!("/proc/{child}/{name}")).unwrap_or_default();
+    let holds = |bytes: &[u8], word: &str| bytes.windows(word.len()).any(|window| window == word.as_bytes());
+    for last in [false, true] {
+        if is_zombie(child) {
+            // It shows nothing but the name of its program, which other workers of this process have, too.
+            return program_of(child) == program && !started().contains(&number);
+        }
+        let environment = read("environ");
+        // One that was forked and wiped its environment still has the memory that its worker shared.
+        if holds(&environment, MARK) || holds(&read("maps"), MEMORY) {
+            return true;
+        }
+        // A program that was started without any environment has no mark. One that is just ending has none to show,
+        // nor has one that is just about to start.
+        if !environment.is_empty() || last {
+            return environment.is_empty();
+        }
         std::thread::sleep(STARTING);
-        bare(environment())
     }
+    false
+}
+
+/// The short name of a process's program, also of one that has ended.
+fn program_of(process: libc::pid_t) -> String {
+    std::fs::read_to_string(format!("/proc/{process}/comm")).unwrap_or_default().trim_end().to_owned()
+}
+
+/// The short name that the system gives to processes of a program.
+fn short_name(program: &Path) -> String {
+    let name = program.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    name.chars().take(SHORT).collect()
 }
 
 fn is_zombie(process: libc::pid_t) -> bool {
@@ -241,7 +279,7 @@ mod tests {
     fn a_process_of_somebody_else_is_not_taken_for_one_that_was_left_behind() {
         let mut other = std::process::Command::new("sleep").arg("20").spawn().expect("sleep is everywhere");
         let id = other.id() as libc::pid_t;
-        assert!(!is_left_behind(id, &BTreeSet::new()));
+        assert!(!is_left_behind(id, &BTreeSet::new(), "wearlaw"));
         other.kill().and_then(|()| other.wait()).expect("it is a child of this process");
     }
 
@@ -251,11 +289,11 @@ mod tests {
         let id = marked.id();
         // Between fork and exec it has this process's own environment.
         let patience = Instant::now() + Duration::from_secs(5);
-        while !is_left_behind(id as libc::pid_t, &BTreeSet::new()) && Instant::now() < patience {
+        while !is_left_behind(id as libc::pid_t, &BTreeSet::new(), "wearlaw") && Instant::now() < patience {
             std::thread::sleep(Duration::from_millis(1));
         }
-        assert!(is_left_behind(id as libc::pid_t, &BTreeSet::new()));
-        assert!(!is_left_behind(id as libc::pid_t, &BTreeSet::from([id])));
+        assert!(is_left_behind(id as libc::pid_t, &BTreeSet::new(), "wearlaw"));
+        assert!(!is_left_behind(id as libc::pid_t, &BTreeSet::from([id]), "wearlaw"));
         marked.kill().and_then(|()| marked.wait()).expect("it is a child of this process");
     }
 

@@ -211,7 +211,7 @@ Values {
         ["The contract"] "no wear at negative pressure";
     ValuesExtremes "values/extremes" quick "-0, subnormals, 1e-300, 1e300 and infinities give a finite value or a status"
         ["The contract"] "never a silent NaN or infinity: an input that has no answer gives a status";
-    ValuesBounds "values/bounds" quick "constants at their bounds give a finite value or a status, beyond them they are refused"
+    ValuesBounds "values/bounds" quick "constants at their bounds give a finite value or a status (the host refuses what lies beyond)"
         ["The descriptor"] "the law answers everywhere within the bounds that it declares";
 }
 Determinism {

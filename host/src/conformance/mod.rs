@@ -22,6 +22,8 @@ mod evidence;
 #[cfg(target_os = "linux")]
 mod harness;
 #[cfg(target_os = "linux")]
+mod keeper;
+#[cfg(target_os = "linux")]
 mod needs;
 #[cfg(target_os = "linux")]
 mod runner;
@@ -110,6 +112,8 @@ pub struct CheckOptions {
     pub quick: bool,
     /// Longest time for one check.
     pub timeout: Duration,
+    /// Loops of many calls are not cut short where the machine is slow: what comes late comes back.
+    pub patient: bool,
     /// Checks that run at the same time.
     pub parallel: usize,
     /// Folder for the files that bring a failure back; none: they are not written.
@@ -131,6 +135,7 @@ impl CheckOptions {
             seed: 1,
             quick: false,
             timeout: TIMEOUT,
+            patient: false,
             parallel: std::thread::available_parallelism().map_or(2, usize::from),
             replays: None,
             program: None,

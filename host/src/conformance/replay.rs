@@ -104,6 +104,7 @@ impl Replay {
         options.selected = vec![self.check];
         options.seed = self.seed;
         options.quick = self.quick;
+        options.patient = true;
         options.law = options.law.take().or_else(|| self.law.clone());
         options.options = options.options.take().or_else(|| self.options.clone());
         if let Some(path) = self.expected.as_ref().filter(|path| path.exists())

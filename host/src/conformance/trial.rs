@@ -11,13 +11,18 @@ use super::check::Check;
 use super::error::ConformanceError;
 use super::evidence::{lost, outcome};
 use super::message::{Answer, Task};
+use super::needs::FAULTS;
 use super::outcome::Outcome;
 use super::slate::{Phase, Touched};
 use crate::law::Source;
 
 /// Part of a check's time after which its loops of many calls are cut short.
 const BUDGET: f64 = 0.4;
-/// Time for the attempt that looks for the point at which a worker was lost.
+/// Time of loops that are not to be cut short, s: more than any check may take.
+pub(super) const PATIENT: f64 = 1e6;
+/// Time for a check of a law that is known to hang at some inputs.
+const HANGING: Duration = Duration::from_secs(5);
+/// Time for the attempt that looks for the point at which a law hangs.
 const NARROWING: Duration = Duration::from_secs(3);
 
 /// What every worker of a run is started with.
@@ -59,7 +64,7 @@ impl<'r> Trials<'r> {
             seed: options.seed,
             quick: options.quick,
             expected: self.expected(law),
-            budget: BUDGET * options.timeout.as_secs_f64(),
+            budget: if options.patient { PATIENT } else { BUDGET * options.timeout.as_secs_f64() },
             narrow: None,
             bits: Vec::new(),
         }
@@ -94,21 +99,27 @@ impl<'r> Trials<'r> {
         known: impl Fn(Check) -> bool,
     ) -> Result<(Outcome, Option<Answer>), ConformanceError> {
         let mut task = self.task(law, check);
-        let mut attempted = self.attempt(&task, self.options.timeout)?;
+        let mut timeout = self.options.timeout;
+        if known(Check::FaultsHang) {
+            // It is most likely to hang again, which says nothing new.
+            timeout = timeout.min(HANGING);
+            task.budget = task.budget.min(BUDGET * timeout.as_secs_f64());
+        }
+        let mut attempted = self.attempt(&task, timeout)?;
         if check == Check::DeterminismProcess
             && let Ended::Answered(answer) = &attempted.ended
             && !answer.bits.is_empty()
         {
             task.bits.clone_from(&answer.bits);
-            attempted = self.attempt(&task, self.options.timeout)?;
+            attempted = self.attempt(&task, timeout)?;
         }
-        if let Some((kind, _)) = fault(&attempted, self.options.timeout)
+        if let Some((kind, _)) = fault(&attempted, timeout)
             && !is_own(check, &attempted)
             && known(kind)
         {
             return Ok((Outcome::Blocked(kind), None));
         }
-        let mut outcome = outcome(check, &attempted, self.options.timeout);
+        let mut outcome = outcome(check, &attempted, timeout);
         self.narrow(&task, &attempted, &mut outcome)?;
         let answer = match attempted.ended {
             Ended::Answered(answer) => Some(*answer),
@@ -124,8 +135,9 @@ impl<'r> Trials<'r> {
         if crumb.phase != Phase::Evaluating || crumb.points <= 1 || task.check == Check::ThreadsConcurrent {
             return Ok(());
         }
-        let again = Task { narrow: Some(crumb.call), ..task.clone() };
-        let time = self.options.timeout.min(NARROWING);
+        let again = Task { narrow: Some(crumb.call), budget: PATIENT, ..task.clone() };
+        let hangs = matches!(attempted.ended, Ended::TimedOut);
+        let time = if hangs { self.options.timeout.min(NARROWING) } else { self.options.timeout };
         let again = self.attempt(&again, time)?;
         // One that was only slow was at many points one after the other.
         let stuck = !matches!(again.ended, Ended::TimedOut) || again.crumb.stayed > time / 4;
@@ -148,7 +160,8 @@ impl<'r> Trials<'r> {
         law: Option<&str>,
         checks: &[Check],
     ) -> Result<(Vec<(Check, Outcome)>, bool), ConformanceError> {
-        let task = self.task(law, checks[0]);
+        // The same for all of them: one that is asked for alone meets the same inputs as in a run of all.
+        let task = self.task(law, FAULTS[0]);
         let attempted = self.attempt(&task, self.options.timeout)?;
         let Some((kind, _)) = fault(&attempted, self.options.timeout) else {
             let outcome = outcome(checks[0], &attempted, self.options.timeout);

@@ -12,11 +12,14 @@ use super::bodies::{self, Bench};
 use super::check::Check;
 use super::harness::call;
 use super::harness::fault_note::note_faults;
+use super::keeper;
 use super::message::{Answer, Task, Verdict};
 use super::slate::Slate;
 
 /// Exit code of a worker that was started by hand.
 const WRONG_START: i32 = 2;
+/// Bytes that a worker may write into a file, what it prints among them.
+const PRINTED: u64 = 64 << 20;
 
 static PANIC: Mutex<Option<String>> = Mutex::new(None);
 
@@ -25,7 +28,9 @@ static PANIC: Mutex<Option<String>> = Mutex::new(None);
 pub fn worker_main(arguments: &[String]) -> i32 {
     let numbers: Vec<i32> = arguments.iter().filter_map(|word| word.parse().ok()).filter(|n| *n > 2).collect();
     let &[memory, to_checker] = numbers.as_slice() else { return WRONG_START };
+    keeper::split(to_checker);
     reset_signals();
+    set_limits();
     for descriptor in [memory, to_checker] {
         // SAFETY: takes integers; the descriptors are this process's own.
         unsafe { libc::fcntl(descriptor, libc::F_SETFD, libc::FD_CLOEXEC) };
@@ -80,7 +85,17 @@ fn reset_signals() {
         // SAFETY: setting the default action needs no handler and is allowed for all of these.
         unsafe { libc::signal(signal, libc::SIG_DFL) };
     }
+}
+
+/// What a law may use up.
+fn set_limits() {
     let none = libc::rlimit { rlim_cur: 0, rlim_max: 0 };
-    // SAFETY: the struct lives through the call; a crash that is looked for needs no dump of its memory.
-    unsafe { libc::setrlimit(libc::RLIMIT_CORE, &none) };
+    let little = libc::rlimit { rlim_cur: PRINTED, rlim_max: PRINTED };
+    // SAFETY: the structs live through the calls; a crash that is looked for needs no dump of its memory, and a law that
+    // prints without end would fill the machine's: past the limit its writes fail.
+    unsafe {
+        libc::setrlimit(libc::RLIMIT_CORE, &none);
+        libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+        libc::setrlimit(libc::RLIMIT_FSIZE, &little);
+    }
 }

@@ -11,6 +11,7 @@ use super::super::harness::subject::{Instance, Law, Library};
 use super::super::message::{Judged, Task, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::super::slate::Slate;
+use super::super::trial::PATIENT;
 use super::expected::Table;
 use crate::law::{Claim, LawDescriptor, Source};
 
@@ -93,6 +94,11 @@ impl Bench {
     /// True as long as there is time for more calls.
     pub(super) fn has_time(&self) -> bool {
         self.start.elapsed().as_secs_f64() < self.task.budget
+    }
+
+    /// As much of a time as there is for a loop of many calls; more of it where nothing is to be cut short.
+    pub(super) fn at_most(&self, time: Duration) -> Duration {
+        if self.task.budget < PATIENT { time.min(self.budget()) } else { self.budget() }
     }
 
     /// The time for loops of many calls.

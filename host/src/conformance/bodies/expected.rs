@@ -3,6 +3,8 @@
 
 use std::ffi::{CStr, c_char};
 
+use wearlaw_plugin_api::abi;
+
 use super::super::harness::call::{Call, Given, Layout};
 use super::super::harness::closeness::{Difference, ulps};
 use super::super::harness::points::{Case, Point, number_text};
@@ -10,7 +12,7 @@ use super::super::harness::subject::Law;
 use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::bench::Bench;
-use crate::law::{CallNumbers, Field, Fields, LawDescriptor, OutputItem};
+use crate::law::{CallNumbers, Field, Fields, LawDescriptor, OutputItem, Quantity};
 
 /// Relative difference that a value may have: rounding, and nothing that a wrong equation gives.
 const TOLERANCE: f64 = 1e-12;
@@ -166,9 +168,14 @@ pub(super) fn expected(bench: &Bench) -> Judged {
             let layout = Layout { given: Given::Declared, absent, ..Layout::plain(about) };
             let answers = Call::new(about, &case, &layout).answers(instance);
             let name = format!("{}, row {}", table.origin, row + 1);
-            if !answers.is_good() {
-                let finding = Finding::new(format!("{name} is refused")).at(case.named(about, 0));
-                return broken(finding.with(format!("status {}", answers.status), "the values of the row"));
+            if let Some(refusal) = beyond(about, &case) {
+                return broken(Finding::new(format!("{name}: {refusal}, so no host gives it to the law")));
+            }
+            if answers.status != abi::WL_OK {
+                let how = if answers.is_good() { "is answered as unreliable" } else { "is refused" };
+                let finding = Finding::new(format!("{name} {how}")).at(case.named(about, 0));
+                let expected = format!("status {} and the values of the row", abi::WL_OK);
+                return broken(finding.with(format!("status {}", answers.status), expected));
             }
             for (head, found, direction) in named(about, &answers.at(0)) {
                 let Some(expected) = table.get(row, &head).filter(|value| !value.is_nan()) else { continue };
@@ -193,6 +200,15 @@ pub(super) fn expected(bench: &Bench) -> Judged {
         let rows = table.rows.len();
         Ok(Verdict::Pass(Some(format!("{rows} rows, {compared} values, at most {worst} ulp off"))))
     })
+}
+
+/// What of a row lies outside of the bounds that the law declares, in words.
+fn beyond(law: &LawDescriptor, case: &Case) -> Option<String> {
+    let constants = law.constants.iter().zip(&case.constants);
+    let states = law.state.iter().zip(&case.point(0).state);
+    let outside = |(quantity, value): &(&Quantity, &f64)| !quantity.allows(**value);
+    let (quantity, value) = constants.chain(states).find(outside)?;
+    Some(format!("{} = {} lies outside of its bounds", quantity.name, number_text(*value)))
 }
 
 /// The answers by the name of their column; whether each is a component of a direction.
@@ -229,6 +245,16 @@ mod tests {
         assert_eq!((case.constants[0], case.point(0).scalar(Field::Pressure), case.numbers.dt), (1e-4, 5e7, 1.0));
         assert!(absent.is_empty());
         assert!(table.case(1, &law).1.contains(Field::Pressure));
+    }
+
+    #[test]
+    fn a_row_outside_of_the_bounds_is_told() {
+        let law = archard();
+        let text = "K,H,pressure,velocity,dt,increment\n1e-4,2e9,5e7,0.2,1,5e-7\n-1,2e9,1,1,1,0\n";
+        let table = Table::parse(text, "t").unwrap();
+        assert_eq!(beyond(&law, &table.case(0, &law).0), None);
+        let told = beyond(&law, &table.case(1, &law).0).unwrap();
+        assert!(told.contains("K = -1"), "{told}");
     }
 
     #[test]

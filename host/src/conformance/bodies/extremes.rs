@@ -123,8 +123,26 @@ pub(super) fn extremes(bench: &Bench) -> Judged {
                 tries += 1;
             }
         }
+        sums(law, instance, &case, &mut tries)?;
         Ok(Verdict::Pass(Some(format!("{tries} calls"))))
     })
+}
+
+/// Puts the largest number into a state variable and into each field in turn: a sum of the two is none any more.
+fn sums(law: &Law<'_>, instance: &Instance<'_>, case: &Case, tries: &mut usize) -> Judged<()> {
+    for (index, variable) in law.about.state.iter().enumerate().filter(|(_, v)| v.allows(f64::MAX)) {
+        for field in law.about.fields().iter().filter(|field| field.shape() == Shape::Scalar) {
+            let changed = case.map(|point| {
+                point.state[index] = f64::MAX;
+                point.set(field, 0, f64::MAX);
+            });
+            let text = number_text(f64::MAX);
+            let what = format!("{} and {} of {text} have no answer and no status", variable.name, field.name());
+            tried(law, instance, &changed, &what)?;
+            *tries += 1;
+        }
+    }
+    Ok(())
 }
 
 /// The quantities of a list that may have this value, where it is not one of their bounds.

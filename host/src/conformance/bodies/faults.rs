@@ -139,7 +139,7 @@ fn search(bench: &Bench, law: &Law<'_>, instance: &Instance<'_>, several: &Case,
     let mut call = Call::new(about, &several.single(0).repeated(BATCH), &Layout::everything(about));
     let base = several.point(0).clone();
     let mut done = 0;
-    let end = Instant::now() + SEARCH.min(bench.budget());
+    let end = Instant::now() + bench.at_most(SEARCH);
     while done < wanted && Instant::now() < end {
         for field in &scalars {
             let value = base.scalar(*field);

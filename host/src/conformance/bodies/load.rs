@@ -198,7 +198,8 @@ pub(super) fn threads(bench: &Bench) -> Judged {
     let (loaded, processes_loaded) = (count_threads(), processes());
     if loaded > before || processes_loaded > processes_before {
         let finding = Finding::new("loading starts threads or processes");
-        let (threads, processes) = (loaded - before, processes_loaded - processes_before);
+        let threads = loaded.saturating_sub(before);
+        let processes = processes_loaded.saturating_sub(processes_before);
         let found = format!("{threads} more threads, {processes} more processes");
         return broken(finding.with(found, "none before an instance is created"));
     }

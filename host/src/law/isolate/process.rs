@@ -1,13 +1,14 @@
 //! Worker processes: started so that they end with the parent, watched, and ended with all that they started.
 #![allow(unsafe_code)] // reason: prctl, pidfd, poll and kill have no safe wrapper in the standard library.
 
+use std::collections::BTreeSet;
 use std::io;
 use std::os::fd::{AsRawFd, BorrowedFd, FromRawFd, OwnedFd, RawFd};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Sender, channel};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A worker process; dropping it ends it and everything that it started.
@@ -41,6 +42,7 @@ impl Process {
         // SAFETY: between fork and exec only async-signal-safe calls are made, and nothing is allocated.
         unsafe { command.pre_exec(move || before_exec(parent, &inherited)) };
         let child = spawn_from_lasting_thread(command)?;
+        started().insert(child.id());
         // SAFETY: the call takes two integers and touches no memory.
         let ended = unsafe { libc::syscall(libc::SYS_pidfd_open, child.id() as libc::pid_t, 0) };
         let ended = (ended >= 0).then(|| {
@@ -135,7 +137,9 @@ impl Process {
         }
         // What a crashed worker left behind is still in its process group.
         signal(-group, libc::SIGKILL);
-        reap(group, &family);
+        family.push(-group);
+        reap(family);
+        started().remove(&self.id());
     }
 }
 
@@ -145,23 +149,33 @@ impl Drop for Process {
     }
 }
 
+/// Numbers of the processes that were started here and not yet ended.
+pub(crate) fn started() -> MutexGuard<'static, BTreeSet<u32>> {
+    static STARTED: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
+    STARTED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 pub(crate) fn signal(process: libc::pid_t, number: i32) {
     // SAFETY: the call takes two integers; the process is a child that has not been waited for, one below it, or the
     // group that this module made for it.
     unsafe { libc::kill(process, number) };
 }
 
+/// How long processes that were killed may take to be gone.
+const REAPING: Duration = Duration::from_secs(2);
+
 /// Takes the ended processes of a worker's family off the list: they are this process's children once it is gone.
-fn reap(group: libc::pid_t, family: &[libc::pid_t]) {
-    let patience = Instant::now() + Duration::from_millis(200);
-    let mut left: Vec<libc::pid_t> = family.to_vec();
-    left.push(-group);
+///
+/// A negative number stands for a group.
+pub(crate) fn reap(mut left: Vec<libc::pid_t>) {
+    let patience = Instant::now() + REAPING;
     while !left.is_empty() && Instant::now() < patience {
         left.retain(|process| {
             // SAFETY: a null pointer means that the status is not wanted.
             let answer = unsafe { libc::waitpid(*process, std::ptr::null_mut(), libc::WNOHANG) };
-            // Of a group there may be more; an error means that there is none.
-            answer == 0 || (answer > 0 && *process < 0)
+            // Of a group there may be more; an error means that there is none, or one whose parent is only just dying.
+            let dying = || *process > 0 && Path::new(&format!("/proc/{process}")).exists();
+            answer == 0 || (answer > 0 && *process < 0) || (answer < 0 && dying())
         });
         if !left.is_empty() {
             std::thread::sleep(Duration::from_millis(1));
