@@ -15,6 +15,7 @@ mod local;
 mod passes;
 mod patch;
 mod residual;
+mod room;
 mod scaled;
 mod search;
 mod solve;
@@ -28,6 +29,7 @@ mod window;
 use super::{Cells, ContactError, ContactModel, Problem, Solution};
 use convolve::{Convolution, Dense};
 use kernel::{Kernel, Sizes};
+use room::Room;
 use scaled::power_of_two;
 
 /// Convolutions that are kept from one solve to the next: over the window, and where the rest is looked at.
@@ -53,6 +55,7 @@ pub struct HalfSpace {
     threads: usize,
     /// The last used is the last.
     kept: Vec<(Sizes, Convolution)>,
+    room: Room,
 }
 
 impl HalfSpace {
@@ -69,7 +72,7 @@ impl HalfSpace {
         let modulus_unit = power_of_two(modulus);
         let datum = datum.map_or(0.5 * cells.counts[0] as f64 * spacing[0], |datum| datum / length);
         let kernel = Kernel::new(flat, boundary, cells.counts, spacing, modulus_unit / modulus, datum);
-        HalfSpace { cells, length, modulus_unit, kernel, threads, kept: Vec::new() }
+        HalfSpace { cells, length, modulus_unit, kernel, threads, kept: Vec::new(), room: Room::default() }
     }
 
     /// The convolution over a window, kept or made; to be given back by [`HalfSpace::keep`].
@@ -112,6 +115,6 @@ impl ContactModel for HalfSpace {
 
     fn bytes(&self) -> usize {
         let kept: usize = self.kept.iter().map(|(_, convolution)| convolution.bytes()).sum();
-        size_of::<Self>() + kept + self.kernel.bytes()
+        size_of::<Self>() + kept + self.kernel.bytes() + self.room.bytes()
     }
 }
