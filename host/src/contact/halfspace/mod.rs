@@ -12,6 +12,7 @@ mod influence;
 mod kernel;
 mod levels;
 mod local;
+mod neighbours;
 mod passes;
 mod patch;
 mod residual;

@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 
 use super::contact_set::ContactSet;
+use super::neighbours::{Neighbours, RUN};
 use super::passes::WORTH;
 use super::patch::Patch;
 
@@ -21,10 +22,6 @@ const GRID_3D: usize = 32;
 const GRID_2D: usize = 128;
 /// Numbers that are added side by side.
 const LANES: usize = 8;
-/// Most neighbours in a row that are done at once, and the cells that the answer for them depends on.
-const RUN: usize = 4;
-const WIDE_3D: usize = RUN + 2 * REACH_3D;
-const WIDE_2D: usize = RUN + 2 * REACH_2D;
 /// Runs that one thread does at a time.
 const SHARE: usize = 2048;
 
@@ -145,43 +142,17 @@ impl Stencil {
     }
 
     /// What it does for the runs that begin here, but for the last.
-    fn act(&self, runs: &[u32], mut out: &mut [f64]) {
-        for bounds in runs.windows(2) {
-            let (from, to) = (bounds[0] as usize, bounds[1] as usize);
-            let (own, rest) = out.split_at_mut(to - from);
-            out = rest;
-            let first = self.places[from] as usize;
-            match self.reach {
-                [REACH_3D, REACH_3D] => own.copy_from_slice(&self.row::<REACH_3D, WIDE_3D>(first)[..to - from]),
-                [REACH_2D, 0] => own.copy_from_slice(&self.row::<REACH_2D, WIDE_2D>(first)[..to - from]),
-                _ => own.iter_mut().enumerate().for_each(|(at, out)| *out = self.single(first + at)),
-            }
-            if !self.factors.is_empty() {
-                own.iter_mut().zip(&self.factors[from..to]).for_each(|(out, factor)| *out *= factor);
-            }
+    fn act(&self, runs: &[u32], out: &mut [f64]) {
+        let near = Neighbours { field: &self.field, pitch: self.pitch, quarter: &self.quarter };
+        let first = runs[0] as usize;
+        match self.reach {
+            [REACH_3D, REACH_3D] => near.sums::<REACH_3D>(&self.places, runs, out),
+            [REACH_2D, 0] => near.sums::<REACH_2D>(&self.places, runs, out),
+            _ => out.iter_mut().zip(&self.places[first..]).for_each(|(out, place)| *out = self.single(*place as usize)),
         }
-    }
-
-    /// What it does for a run of neighbours: equal entries share a multiplication.
-    fn row<const REACH: usize, const WIDE: usize>(&self, first: usize) -> [f64; RUN] {
-        let mut sums = [0.0; RUN];
-        for (y, entries) in self.quarter.chunks_exact(REACH + 1).enumerate() {
-            let mut values = [0.0; WIDE];
-            values.copy_from_slice(&self.field[first + y * self.pitch - REACH..][..WIDE]);
-            if y > 0 {
-                let above = &self.field[first - y * self.pitch - REACH..][..WIDE];
-                values.iter_mut().zip(above).for_each(|(value, above)| *value += above);
-            }
-            for lane in 0..RUN {
-                sums[lane] += entries[0] * values[REACH + lane];
-            }
-            for x in 1..=REACH {
-                for lane in 0..RUN {
-                    sums[lane] += entries[x] * (values[REACH + lane - x] + values[REACH + lane + x]);
-                }
-            }
+        if !self.factors.is_empty() {
+            out.iter_mut().zip(&self.factors[first..]).for_each(|(out, factor)| *out *= factor);
         }
-        sums
     }
 
     /// What it does for one cell.

@@ -90,7 +90,9 @@ impl<'p> Coupled<'p> {
             going.stepper.return_to(system, &begin);
             // Uneven steps could be beyond the limit that their number keeps.
             let guide = coarse.as_ref().filter(|_| !self.has_limit());
+            system.trial = coarse.is_none();
             let tried = self.pass(system, going, segment, (start, until, number), (steps, guide, cycles_per_time));
+            system.trial = false;
             if tried.is_err() {
                 // Nothing of a trial stays.
                 going.stepper.return_to(system, &begin);
