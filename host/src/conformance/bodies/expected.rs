@@ -40,7 +40,8 @@ impl Table {
     }
 
     fn parse(text: &str, origin: &str) -> Result<Self, String> {
-        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
+        let mut reader =
+            csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
         let heads = reader.headers().map_err(|error| format!("{origin}: {error}"))?;
         let heads: Vec<String> = heads.iter().map(str::to_owned).collect();
         let mut rows = Vec::new();

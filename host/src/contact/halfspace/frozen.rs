@@ -28,7 +28,14 @@ pub fn close(patch: &mut Patch<'_>, set: &ContactSet, tolerance: f64, pressure: 
     let mut descent = Descent { pressure: values, residual: gap.clone(), iterations: 0 };
     let mut reference = descent.norm(patch);
     let mut image = vec![0.0; count];
-    let mut outcome = Outcome { approach: 0.0, iterations: 0, error: f64::INFINITY, bar: 0.0, converged: count == 0, outgrown: false };
+    let mut outcome = Outcome {
+        approach: 0.0,
+        iterations: 0,
+        error: f64::INFINITY,
+        bar: 0.0,
+        converged: count == 0,
+        outgrown: false,
+    };
     let mut best = Vec::new();
     for round in 0..MOST_ROUNDS {
         patch.image(set, &descent.pressure, &mut image);

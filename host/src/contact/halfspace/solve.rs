@@ -109,7 +109,7 @@ impl Job<'_> {
         room.give(gap);
         room.give(local);
         self.model.room = room;
-        self.model.keep(window.sizes, convolution);
+        self.model.keep(convolution);
         result
     }
 
@@ -209,7 +209,7 @@ impl Job<'_> {
         let mut u = vec![0.0; field.len()];
         let mut convolution = self.model.convolution(view.sizes);
         convolution.apply(&Dense { width: view.sizes.0[0], input: &field }, &mut u);
-        self.model.keep(view.sizes, convolution);
+        self.model.keep(convolution);
         self.pairs += 1;
         let overlap = |at: [usize; 2], gap: f64| view.place(at).map_or(0.0, |place| outcome.approach - gap - u[place]);
         let most = doubtful.iter().map(|(at, gap)| overlap(*at, *gap)).fold(0.0, f64::max);

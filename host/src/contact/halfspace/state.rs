@@ -41,7 +41,8 @@ impl State {
                 if !pressure.iter().fold(false, |any, p| any | (*p > 0.0)) {
                     continue;
                 }
-                for (((p, first), u), cell) in pressure.iter().zip(gap).zip(u).zip(cells).filter(|(((p, _), _), _)| **p > 0.0)
+                for (((p, first), u), cell) in
+                    pressure.iter().zip(gap).zip(u).zip(cells).filter(|(((p, _), _), _)| **p > 0.0)
                 {
                     let gap = first + u;
                     part.total += p;

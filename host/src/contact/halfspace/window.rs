@@ -60,7 +60,7 @@ impl Window {
 
     /// Along which axes it is the whole of a period.
     pub fn wraps(&self, boundary: Boundary) -> [bool; 2] {
-        [0, 1].map(|axis| boundary == Boundary::Periodic && self.sizes.1[axis] == self.all[axis])
+        [0, 1].map(|axis| boundary == Boundary::Periodic && self.sizes.0[axis] == self.all[axis])
     }
 
     /// On which sides of each axis the surface goes on beyond it.
