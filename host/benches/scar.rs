@@ -1,7 +1,8 @@
 //! Wear of a ball on a flat until the scar has three times the Hertz radius: processor time, work and true errors.
 //!
-//! `cargo bench -p wearlaw --bench scar`; without `--bench` only small cases run. Further words pick parts: `-- grid` the
-//! same scar on 64 to 512 cells a side, `-- square` a law of pressure exponent 2, `-- cycles` 1 to 1000 strokes.
+//! `cargo bench -p wearlaw --bench scar`; without `--bench` only small cases run. Further words pick cases by what their
+//! line begins with: `-- scar`, the same scar on 64 to 512 cells a side, `-- square`, a law of pressure exponent 2, or
+//! `-- cycles`, 10 to 1000 strokes.
 
 mod support;
 
@@ -10,7 +11,7 @@ use std::path::Path;
 
 use support::processor::seconds;
 use support::timing::is_measured;
-use wearlaw::law::{LawInstance, Plugin, embedded};
+use wearlaw::law::{Evaluator, LawInstance, Plugin, embedded};
 use wearlaw::plan::Plan;
 use wearlaw::record::{End, Nobody, Record};
 use wearlaw::scene::Scene;
@@ -23,11 +24,11 @@ const LOAD: f64 = 20.0;
 const COEFFICIENT: f64 = 1e-13;
 
 fn main() {
-    let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
-    let wanted = |name: &str| words.is_empty() || words.iter().any(|word| word == name);
     let plugin = Plugin::from_entry(embedded::entry("archard").expect("archard is embedded")).expect("a law");
     let archard = plugin.law(None).expect("one law").create(None).expect("no options are needed");
     let folder = tempfile::tempdir().expect("a temporary folder");
+    let words = std::env::args().skip(1).filter(|word| word != "--bench").collect();
+    let case = Case { folder: folder.path(), law: &archard, words };
     println!(
         "{:>24} {:>6} {:>9} {:>7} {:>11} {:>9} {:>9} {:>6} {:>10} {:>10} {:>10}",
         "case",
@@ -42,36 +43,33 @@ fn main() {
         "press. err",
         "volume err"
     );
-    let case = Case { folder: folder.path(), law: &archard };
-    if wanted("grid") {
-        let sizes: &[usize] = if is_measured() { &[64, 128, 256, 512] } else { &[32] };
-        for n in sizes {
-            case.row(&format!("periodic {n}"), |tolerance, contact| scar("periodic", *n, 1.0, 1, tolerance, contact));
-        }
-        if is_measured() {
-            case.row("free 256", |tolerance, contact| scar("free", 256, 1.0, 1, tolerance, contact));
-        }
+    let few = !is_measured();
+    for n in if few { &[32][..] } else { &[64, 128, 256, 512] } {
+        case.row(&format!("scar periodic {n}"), |accuracy| scar("periodic", *n, 1.0, accuracy));
     }
-    if wanted("square") {
-        let sizes: &[usize] = if is_measured() { &[128, 256] } else { &[32] };
-        for n in sizes {
-            case.row(&format!("p^2, periodic {n}"), |tolerance, contact| {
-                scar("periodic", *n, 2.0, 1, 5.0 * tolerance, contact)
-            });
-        }
+    for n in if few { &[32][..] } else { &[256] } {
+        case.row(&format!("scar free {n}"), |accuracy| scar("free", *n, 1.0, accuracy));
     }
-    if wanted("cycles") {
-        let counts: &[u64] = if is_measured() { &[1, 10, 100, 1000] } else { &[1, 2] };
-        for count in counts {
-            case.timed(&format!("{count} cycles, free 64"), &cycles(*count));
-        }
+    for n in if few { &[32][..] } else { &[128, 256] } {
+        case.row(&format!("square periodic {n}"), |accuracy| scar("periodic", *n, 2.0, accuracy));
     }
+    for count in if few { &[2][..] } else { &[10, 100, 1000] } {
+        case.timed(&format!("cycles {count}"), &cycles(*count));
+    }
+}
+
+/// How exact a run is to be: the tolerance of the wear and, if it is not the usual one, that of the contact.
+struct Accuracy {
+    wear: f64,
+    contact: Option<f64>,
 }
 
 /// Runs scenes and prints their lines.
 struct Case<'a> {
     folder: &'a Path,
     law: &'a LawInstance,
+    /// What the names of the wanted cases begin with; none: all are.
+    words: Vec<String>,
 }
 
 impl Case<'_> {
@@ -100,11 +98,19 @@ impl Case<'_> {
         (least, last.expect("it ran"))
     }
 
-    /// One scene at the tolerance 1e-3, against the same refined; `scene` makes it of the tolerance of the wear and of
-    /// the contact, if that is not the usual one.
-    fn row(&self, name: &str, scene: impl Fn(f64, Option<f64>) -> String) {
-        let (time, record) = self.least(&scene(1e-3, None));
-        let refined = self.run(&scene(2e-5, Some(1e-10)));
+    fn wants(&self, name: &str) -> bool {
+        self.words.is_empty() || self.words.iter().any(|word| name.starts_with(word))
+    }
+
+    /// One scene at the tolerance 1e-3, against the same refined.
+    fn row(&self, name: &str, scene: impl Fn(Accuracy) -> String) {
+        if !self.wants(name) {
+            return;
+        }
+        let (time, record) = self.least(&scene(Accuracy { wear: 1e-3, contact: None }));
+        let tolerance = if is_measured() { 2e-7 } else { 1e-4 };
+        let refined = self.run(&scene(Accuracy { wear: tolerance, contact: Some(1e-10) }));
+        assert!(refined.cost.steps > 3 * record.cost.steps || !is_measured(), "the refined run is not much finer");
         let volume = |record: &Record<SolveError>| record.wear.iter().sum::<f64>();
         let errors = [
             distance(&record.wear, &refined.wear),
@@ -116,6 +122,9 @@ impl Case<'_> {
 
     /// One scene, timed only.
     fn timed(&self, name: &str, scene: &str) {
+        if !self.wants(name) {
+            return;
+        }
         let (time, record) = self.least(scene);
         print(name, time, &record, &["-", "-", "-"].map(str::to_owned));
     }
@@ -139,15 +148,16 @@ fn print(name: &str, time: f64, record: &Record<SolveError>, errors: &[String; 3
 
 /// A ball of R = 10 mm under 20 N on a square of ten Hertz radii, E* = 110 GPa, until the scar of a linear law with
 /// K / H = 1e-13 /Pa has three of them. A law with another exponent wears as much at a tenth of the Hertz pressure.
-fn scar(boundary: &str, n: usize, m: f64, cycles: u64, tolerance: f64, contact: Option<f64>) -> String {
+fn scar(boundary: &str, n: usize, m: f64, accuracy: Accuracy) -> String {
     let hertz = (0.75 * LOAD * RADIUS / MODULUS).cbrt();
     let pressure = 0.1 * 1.5 * LOAD / (PI * hertz.powi(2));
-    let duration = PI * (3.0 * hertz).powi(4) / (4.0 * RADIUS) / (COEFFICIENT * LOAD) / cycles as f64;
+    let duration = PI * (3.0 * hertz).powi(4) / (4.0 * RADIUS) / (COEFFICIENT * LOAD);
     let hardness = 1e10;
-    let wear = COEFFICIENT * hardness * pressure.powf(1.0 - m);
+    let coefficient = COEFFICIENT * hardness * pressure.powf(1.0 - m);
+    let Accuracy { wear: tolerance, contact } = accuracy;
     let contact = contact.map_or(String::new(), |contact| format!("tolerance = {contact:e}\n"));
     format!(
-        "[law]\nuse = \"archard\"\nconstants = {{ K = {wear:e}, H = {hardness:e}, m = {m:?}, n = 1.0 }}\n\
+        "[law]\nuse = \"archard\"\nconstants = {{ K = {coefficient:e}, H = {hardness:e}, m = {m:?}, n = 1.0 }}\n\
          [contact]\nmodel = \"halfspace\"\nmodulus = {MODULUS:e}\nboundary = \"{boundary}\"\n{contact}\
          [grid]\nsize = [{size:e}, {size:e}]\ncells = [{n}, {n}]\n\
          [surface]\nshape = \"sphere\"\nradius = {RADIUS:e}\n\
@@ -157,17 +167,17 @@ fn scar(boundary: &str, n: usize, m: f64, cycles: u64, tolerance: f64, contact: 
     )
 }
 
-/// The same scar on 64 x 64 cells in this many cycles of a load that swells and fades, two substeps each.
+/// Cycles of a load that rises and falls, two substeps each, on 64 x 64 cells; a scar grows by 1e-4 of its volume in one.
 fn cycles(count: u64) -> String {
-    let scene = scar("free", 64, 1.0, 2 * count, 1e-3, None);
+    let scene = scar("free", 64, 1.0, Accuracy { wear: 1e-3, contact: None });
     let (before, step) = scene.split_once("[[step]]\n").expect("a scene with a step");
     let (step, after) = step.split_once("[integrator]").expect("a scene with an integrator");
-    let step = step.trim_end();
     let (_, output) = after.split_once("[output]").expect("a scene with output");
-    format!(
-        "{before}[[cycle]]\ncount = {count}\n[[cycle.step]]\n{step}\n[[cycle.step]]\n{}\n[integrator]\nsubsteps = 1\n[output]{output}",
-        step.replace(&format!("load = {LOAD:e}"), &format!("load = {:e}", 0.8 * LOAD)),
-    )
+    let (_, rest) = step.split_once("load").expect("a step with a load");
+    let (_, rest) = rest.split_once('\n').expect("something after it");
+    let step = |load: f64| format!("[[cycle.step]]\nduration = 2e-5\nload = {load:e}\n{rest}\n");
+    let (low, high) = (step(0.8 * LOAD), step(LOAD));
+    format!("{before}[[cycle]]\ncount = {count}\n{low}{high}[integrator]\nsubsteps = 1\n[output]{output}")
 }
 
 /// ||a - b|| / ||b||.

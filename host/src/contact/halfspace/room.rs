@@ -24,12 +24,6 @@ impl Room {
         }
     }
 
-    /// Lets go of what is too small for any array of a window with this many cells, and of more than a solve needs.
-    pub fn tidy(&mut self, most: usize) {
-        self.spare.sort_by_key(|array| std::cmp::Reverse(array.capacity()));
-        self.spare.truncate(most);
-    }
-
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
         self.spare.iter().map(|array| 8 * array.capacity()).sum()
