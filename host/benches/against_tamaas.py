@@ -63,7 +63,7 @@ def tamaas(shape, boundary, n):
         solver.setIntegralOperator("dcfft")
     solver.max_iter, solver.dump_freq = 3000, 10**9
     times = []
-    for _ in range(3 if n <= 512 else 2 if n <= 1024 else 1):
+    for _ in range(3 if n <= 512 else 1):
         model.traction[...] = 0
         model.displacement[...] = 0
         begin = time.process_time()

@@ -33,7 +33,8 @@ struct Bench {
 
 /// A convolution that is ready to be applied.
 pub struct Convolution {
-    counts: [usize; 2],
+    /// Cells of the window.
+    pub counts: [usize; 2],
     padded: [usize; 2],
     symbol: Quarter,
     threads: usize,

@@ -84,3 +84,36 @@ fn four(values: &[f64], first: usize) -> [f64; RUN] {
 fn plus(a: [f64; RUN], b: [f64; RUN]) -> [f64; RUN] {
     std::array::from_fn(|lane| a[lane] + b[lane])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every cell's sum over its neighbours, one after the other.
+    fn one_by_one(near: &Neighbours<'_>, reach: usize, place: usize) -> f64 {
+        let reach = reach as isize;
+        let high = near.quarter.len() as isize / (reach + 1) - 1;
+        let at = |x: isize, y: isize| near.field[(place as isize + y * near.pitch as isize + x) as usize];
+        let weight = |x: isize, y: isize| near.quarter[(y.abs() * (reach + 1) + x.abs()) as usize];
+        (-high..=high).flat_map(|y| (-reach..=reach).map(move |x| weight(x, y) * at(x, y))).sum()
+    }
+
+    #[test]
+    fn sums_are_those_over_all_neighbours_with_the_same_bits_on_any_processor() {
+        let (pitch, rows) = (40, 20);
+        let field: Vec<f64> = (0..pitch * rows).map(|i| ((i * 7919) % 1013) as f64 - 500.0).collect();
+        let quarter: Vec<f64> = (0..16).map(|i| 1.0 / (1.0 + i as f64)).collect();
+        let near = Neighbours { field: &field, pitch, quarter: &quarter };
+        // Runs of four, of one and of three, apart from each other.
+        let (places, runs) = ([125, 126, 127, 128, 301, 333, 334, 335], [0, 4, 5, 8]);
+        let mut out = [0.0; 8];
+        near.sums::<3>(&places, &runs, &mut out);
+        let mut plain = [0.0; 8];
+        near.sums_anywhere::<3>(&places, &runs, &mut plain);
+        assert_eq!(out.map(f64::to_bits), plain.map(f64::to_bits));
+        for (sum, place) in out.iter().zip(places) {
+            let wanted = one_by_one(&near, 3, place as usize);
+            assert!((sum - wanted).abs() < 1e-9 * wanted.abs().max(1.0), "{place}: {sum} {wanted}");
+        }
+    }
+}
