@@ -3,12 +3,15 @@
 //! `cargo bench -p wearlaw --bench halfspace`; without `--bench` only the small cases run. Further words pick cases by
 //! what their line begins with: `-- rough` or `-- "hertz free 1024"`.
 
+mod support;
+
 use std::f64::consts::PI;
 use std::process::Command;
 use std::time::Instant;
 
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+use support::processor::{peak_megabytes, seconds};
 use wearlaw::contact::halfspace::{Boundary, HalfSpace};
 use wearlaw::contact::{Cells, ContactModel, Control, Diagonal, Problem};
 
@@ -90,9 +93,9 @@ fn one(shape: &str, boundary: &str, n: usize, threads: usize) {
         let repeats = if n > 2048 { 2 } else { 4 };
         for _ in 0..repeats {
             pressure.fill(0.0);
-            let (begin, clock) = (processor_seconds(), Instant::now());
+            let (begin, clock) = (seconds(), Instant::now());
             solution = Some(model.solve(&problem, &mut pressure).expect("it converges"));
-            times.push(processor_seconds() - begin);
+            times.push(seconds() - begin);
             walls.push(clock.elapsed().as_secs_f64());
         }
         let (first, solution) = (times[0], solution.expect("it was solved"));
@@ -154,18 +157,4 @@ fn rough(n: usize) -> (f64, Vec<f64>, f64) {
     // The real part has half of the power of the complex field.
     let gap = field.iter().map(|value| -value.re * 0.1 / slopes.sqrt()).collect();
     (size, gap, 0.004 * MODULUS * size * size)
-}
-
-/// Time that the processors spent on this process, s.
-fn processor_seconds() -> f64 {
-    let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
-    let times = tasks.filter_map(|task| std::fs::read_to_string(task.path().join("schedstat")).ok());
-    times.filter_map(|text| text.split_whitespace().next()?.parse::<f64>().ok()).sum::<f64>() / 1e9
-}
-
-/// Largest memory of this process so far, MB.
-fn peak_megabytes() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok()).map_or(f64::NAN, |kb| kb / 1024.0)
 }

@@ -6,6 +6,7 @@
 
 pub mod laws;
 pub mod placed;
+pub mod processor;
 pub mod raw;
 pub mod scenes;
 pub mod timing;

@@ -2,6 +2,9 @@
 
 use super::convolve::Rows;
 
+/// Neighbours that are looked at together.
+const BLOCK: usize = 32;
+
 /// Cells of a window, in the order of the grid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactSet {
@@ -25,6 +28,28 @@ impl ContactSet {
         set
     }
 
+    /// The cells of a window of `width` columns with pressure, and those whose gap and displacement add up to less than
+    /// `joins`.
+    pub fn touching(width: usize, pressure: &[f64], gap: &[f64], u: &[f64], joins: f64) -> ContactSet {
+        let rows = pressure.len() / width;
+        let mut set = ContactSet { width, cells: Vec::new(), starts: Vec::with_capacity(rows + 1) };
+        for row in 0..rows {
+            set.starts.push(set.cells.len() as u32);
+            for first in (0..width).step_by(BLOCK) {
+                let cells = row * width + first..row * width + width.min(first + BLOCK);
+                let (pressure, gap, u) = (&pressure[cells.clone()], &gap[cells.clone()], &u[cells.clone()]);
+                let all = pressure.iter().zip(gap.iter().zip(u));
+                let mut all = all.map(|(pressure, (gap, u))| (*pressure > 0.0) | (gap + u < joins));
+                // Without a branch for each cell, because most blocks have none.
+                if all.clone().fold(false, |any, on| any | on) {
+                    set.cells.extend(cells.filter(|_| all.next() == Some(true)).map(|cell| cell as u32));
+                }
+            }
+        }
+        set.starts.push(set.cells.len() as u32);
+        set
+    }
+
     /// Number of cells.
     pub fn len(&self) -> usize {
         self.cells.len()
@@ -33,6 +58,11 @@ impl ContactSet {
     /// The values of an array over the window on the set.
     pub fn gather(&self, from: &[f64]) -> Vec<f64> {
         self.cells.iter().map(|cell| from[*cell as usize]).collect()
+    }
+
+    /// The same, into an array on the set.
+    pub fn gather_into(&self, from: &[f64], to: &mut [f64]) {
+        to.iter_mut().zip(&self.cells).for_each(|(to, cell)| *to = from[*cell as usize]);
     }
 
     /// Writes values on the set into an array over the window.
@@ -46,6 +76,23 @@ impl ContactSet {
     pub fn row(&self, row: usize) -> (usize, &[u32]) {
         let (begin, end) = (self.starts[row] as usize, self.starts[row + 1] as usize);
         (begin, &self.cells[begin..end])
+    }
+}
+
+/// Values on a set as input of a convolution, which answers on the whole window.
+pub struct FromSet<'a>(pub OnSet<'a>);
+
+impl Rows for FromSet<'_> {
+    fn start(&self, row: usize) -> usize {
+        row * self.0.set.width
+    }
+
+    fn read(&self, row: usize, values: &mut [f64]) -> bool {
+        self.0.read(row, values)
+    }
+
+    fn write(&self, _: usize, values: &[f64], out: &mut [f64]) {
+        out.copy_from_slice(&values[..out.len()]);
     }
 }
 

@@ -33,9 +33,11 @@ struct Bench {
 
 /// A convolution that is ready to be applied.
 pub struct Convolution {
-    counts: [usize; 2],
+    /// Cells of the window.
+    pub counts: [usize; 2],
     padded: [usize; 2],
     symbol: Quarter,
+    threads: usize,
     /// `[strip][row][STRIP]`, the strips a little apart so that they do not fall on the same lines of cache.
     spectrum: Vec<Complex<f64>>,
     forward: Arc<dyn RealToComplex<f64>>,
@@ -101,18 +103,39 @@ impl Convolution {
             columns: vec![ZERO; STRIP * (padded[1] + APART)],
             scratch: vec![ZERO; scratch],
         };
-        let benches = if threads > 1 && padded[0] * counts[1] >= WORTH { 2 * threads } else { 1 };
-        Convolution {
+        let mut convolution = Convolution {
             counts,
             padded,
             symbol,
-            spectrum: vec![ZERO; strips * STRIP * (counts[1] + 1)],
+            threads,
+            spectrum: Vec::new(),
             forward,
             backward,
             forward_column,
             backward_column,
-            benches: vec![bench; benches],
+            benches: vec![bench],
+        };
+        convolution.turn_to(counts);
+        convolution
+    }
+
+    /// Turns to a window of other counts, under the same transforms.
+    pub fn turn_to(&mut self, counts: [usize; 2]) {
+        self.counts = counts;
+        let strips = (self.padded[0] / 2 + 1).div_ceil(STRIP);
+        self.spectrum.resize(strips * STRIP * (counts[1] + 1), ZERO);
+        if self.threads > 1 && self.padded[0] * counts[1] >= WORTH {
+            while self.benches.len() < 2 * self.threads {
+                self.benches.push(self.benches[0].clone());
+            }
+        } else {
+            self.benches.truncate(1);
         }
+    }
+
+    /// Cells of the grid that the transforms are made on.
+    pub fn padded(&self) -> [usize; 2] {
+        self.padded
     }
 
     /// Bytes that it holds.

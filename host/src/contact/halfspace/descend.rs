@@ -1,10 +1,13 @@
 //! Preconditioned conjugate gradients on a set that stays.
 
 use super::contact_set::ContactSet;
-use super::passes::{change, dot, sum};
+use super::passes::{add, change, dot, sum};
 use super::patch::Patch;
 use super::residual;
 use super::stencil::Stencil;
+
+/// How far above the error that is enough the residual may be on average for the error to be looked at.
+const NEAR: f64 = 8.0;
 
 /// When a descent has done enough.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +31,18 @@ pub struct Descent {
     pub residual: Vec<f64>,
     /// Iterations so far.
     pub iterations: u64,
+}
+
+/// The displacement over the whole window, to be kept that of the pressures while they change.
+///
+/// It is linear in them, so a search direction whose image is known everywhere costs no transform more.
+pub struct Followed<'a> {
+    /// Displacement `[cells]`.
+    pub u: &'a mut [f64],
+    /// Iterations for which it is worth that; with more of them one transform at the end is cheaper.
+    pub most: u64,
+    /// Whether it was kept.
+    pub kept: bool,
 }
 
 /// The error of pressures with these gaps, those below zero counting as zero.
@@ -76,57 +91,106 @@ impl Descent {
     ///
     /// A search direction that keeps the sum is the preconditioned residual less that multiple of the preconditioned
     /// unit displacement which has its sum.
-    pub fn run(&mut self, patch: &mut Patch<'_>, set: &ContactSet, stencil: &mut Stencil, goal: &Goal) -> bool {
+    pub fn run(
+        &mut self,
+        patch: &mut Patch<'_>,
+        set: &ContactSet,
+        stencil: &mut Stencil,
+        goal: &Goal,
+        followed: &mut Followed<'_>,
+    ) -> bool {
         if !patch.symmetric() {
+            followed.kept = false;
             return residual::run(self, patch, set, stencil, goal);
         }
+        let arrays = [(); 5].map(|()| patch.room.take(set.len()));
+        let over = patch.room.take(if followed.kept { followed.u.len() } else { 0 });
+        let mut room = Arrays { arrays, over };
+        let positive = self.conjugate(patch, set, stencil, goal, followed, &mut room);
+        room.arrays.into_iter().for_each(|array| patch.room.give(array));
+        patch.room.give(room.over);
+        positive
+    }
+
+    fn conjugate(
+        &mut self,
+        patch: &mut Patch<'_>,
+        set: &ContactSet,
+        stencil: &mut Stencil,
+        goal: &Goal,
+        followed: &mut Followed<'_>,
+        room: &mut Arrays,
+    ) -> bool {
+        let Arrays { arrays: [direction, image, steep, unit, ones], over } = room;
         let (threads, count) = (patch.threads, set.len());
-        let mut unit = Vec::new();
         let mut unit_sum = 0.0;
         if patch.sum.is_some() {
             if count < 2 {
                 return true;
             }
-            unit = vec![0.0; count];
-            stencil.apply(patch, &vec![1.0; count], &mut unit);
+            ones.fill(1.0);
+            stencil.apply(patch, ones, unit);
             unit_sum = sum(threads, count, |i| unit[i]);
         }
         let own = stencil.own();
-        let (mut direction, mut image, mut steep) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
         let mut last = 0.0;
         for iteration in 0..goal.most {
-            stencil.apply(patch, &self.residual, &mut steep);
+            stencil.apply(patch, &self.residual, steep);
             if patch.sum.is_some() {
                 let factor = sum(threads, count, |i| steep[i]) / unit_sum;
-                change(threads, &mut steep, |i, value| value - factor * unit[i]);
+                add(threads, steep, -factor, unit);
             }
-            let square = dot(threads, &self.residual, &steep);
-            let beta = if iteration == 0 { 0.0 } else { square / last };
+            let square = dot(threads, &self.residual, steep);
+            if iteration == 0 {
+                direction.copy_from_slice(steep);
+            } else {
+                let beta = square / last;
+                change(threads, direction, |i, value| steep[i] + beta * value);
+            }
             last = square;
-            change(threads, &mut direction, |i, value| steep[i] + beta * value);
             if square <= 0.0 {
                 return iteration > 0 || square == 0.0;
             }
-            patch.image(set, &direction, &mut image);
-            let curvature = dot(threads, &direction, &image);
+            followed.kept &= iteration < followed.most;
+            if followed.kept {
+                patch.image_over(set, direction, over);
+                set.gather_into(over, image);
+            } else {
+                patch.image(set, direction, image);
+            }
+            let curvature = dot(threads, direction, image);
             self.iterations += 1;
             if curvature.is_nan() || curvature <= 0.0 {
+                followed.kept = false;
                 return false;
             }
-            let step = dot(threads, &self.residual, &direction) / curvature;
-            change(threads, &mut self.pressure, |i, p| p - step * direction[i]);
-            change(threads, &mut self.residual, |i, r| r - step * image[i]);
+            let step = dot(threads, &self.residual, direction) / curvature;
+            add(threads, &mut self.pressure, -step, direction);
+            add(threads, &mut self.residual, -step, image);
+            if followed.kept {
+                add(threads, followed.u, -step, over);
+            }
             let norm = self.norm(patch);
             if norm <= goal.norm {
                 return true;
             }
             if goal.wrong.is_finite() {
                 let below = sum(threads, count, |i| self.pressure[i].min(0.0).powi(2)).sqrt();
-                if norm <= goal.wrong * own * below || error(patch, &self.pressure, &self.residual) <= goal.error {
+                // Where the residual is far above the goal on average, the error is not looked at.
+                let near = norm <= NEAR * goal.error * (count as f64).sqrt();
+                if norm <= goal.wrong * own * below
+                    || near && error(patch, &self.pressure, &self.residual) <= goal.error
+                {
                     return true;
                 }
             }
         }
         true
     }
+}
+
+/// Room for a descent: arrays over the set, and one over the window.
+struct Arrays {
+    arrays: [Vec<f64>; 5],
+    over: Vec<f64>,
 }

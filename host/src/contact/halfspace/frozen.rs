@@ -1,7 +1,7 @@
 //! Pressures of either sign that close the gap on a set that is given.
 
 use super::contact_set::ContactSet;
-use super::descend::{Descent, Goal};
+use super::descend::{Descent, Followed, Goal};
 use super::patch::Patch;
 use super::search::Outcome;
 use super::stencil::Stencil;
@@ -28,7 +28,14 @@ pub fn close(patch: &mut Patch<'_>, set: &ContactSet, tolerance: f64, pressure: 
     let mut descent = Descent { pressure: values, residual: gap.clone(), iterations: 0 };
     let mut reference = descent.norm(patch);
     let mut image = vec![0.0; count];
-    let mut outcome = Outcome { approach: 0.0, iterations: 0, error: f64::INFINITY, bar: 0.0, converged: count == 0 };
+    let mut outcome = Outcome {
+        approach: 0.0,
+        iterations: 0,
+        error: f64::INFINITY,
+        bar: 0.0,
+        converged: count == 0,
+        outgrown: false,
+    };
     let mut best = Vec::new();
     for round in 0..MOST_ROUNDS {
         patch.image(set, &descent.pressure, &mut image);
@@ -57,13 +64,15 @@ pub fn close(patch: &mut Patch<'_>, set: &ContactSet, tolerance: f64, pressure: 
         descent.residual.iter_mut().for_each(|r| *r -= mean);
         let norm = (0.5 * tolerance * reference).max(REDUCTION * norm);
         let goal = Goal { norm, error: 0.0, wrong: f64::INFINITY, most: MOST_ITERATIONS };
-        descent.run(patch, set, &mut stencil, &goal);
+        let mut followed = Followed { u: &mut [], most: 0, kept: false };
+        descent.run(patch, set, &mut stencil, &goal, &mut followed);
         if let Some(wanted) = patch.sum {
             // What rounding did to the sum.
             let lacking = (wanted - descent.pressure.iter().sum::<f64>()) / count.max(1) as f64;
             descent.pressure.iter_mut().for_each(|p| *p += lacking);
         }
     }
+    stencil.end(patch);
     pressure.fill(0.0);
     set.scatter(&best, pressure);
     outcome

@@ -26,7 +26,10 @@ pub struct Kernel {
     least: Option<f64>,
 }
 
-/// Cells of a window and of the grid that its transforms are made on; equal along an axis: the whole of a period.
+/// Windows that share the transforms of a period come in multiples of this many cells.
+const SHARE: usize = 8;
+
+/// Cells of a window and of the grid that its transforms are made on.
 pub type Sizes = ([usize; 2], [usize; 2]);
 
 impl Kernel {
@@ -78,7 +81,11 @@ impl Kernel {
             let (all, least) = (self.counts[axis], least[axis].clamp(1, self.counts[axis]));
             let padded = good(2 * least - 1);
             match self.boundary {
-                Boundary::Periodic if padded >= all => (all, all),
+                // Over the whole period, with as many cells of it as are needed.
+                Boundary::Periodic if padded >= all => {
+                    let count = least.next_multiple_of(SHARE);
+                    (if 8 * count > 7 * all { all } else { count }, all)
+                }
                 _ if padded.div_ceil(2) >= all => (all, good(2 * all - 1)),
                 _ => (padded.div_ceil(2), padded),
             }

@@ -3,6 +3,7 @@
 use super::Boundary;
 use super::kernel::Kernel;
 use super::patch::Patch;
+use super::room::Room;
 use super::search::{Accuracy, search};
 use super::window::{Extent, Window};
 
@@ -138,6 +139,8 @@ pub fn guess(mut level: Level, threads: usize) -> Guess {
         local: if level.local.len() > 1 { window.gather(|cell| level.local[cell]) } else { level.local.clone() },
         smoothed: false,
         sum: level.sum,
+        cut: [[false; 2]; 2],
+        room: Room::default(),
         threads,
         pairs: 0,
     };

@@ -12,9 +12,11 @@ mod influence;
 mod kernel;
 mod levels;
 mod local;
+mod neighbours;
 mod passes;
 mod patch;
 mod residual;
+mod room;
 mod scaled;
 mod search;
 mod solve;
@@ -28,6 +30,7 @@ mod window;
 use super::{Cells, ContactError, ContactModel, Problem, Solution};
 use convolve::{Convolution, Dense};
 use kernel::{Kernel, Sizes};
+use room::Room;
 use scaled::power_of_two;
 
 /// Convolutions that are kept from one solve to the next: over the window, and where the rest is looked at.
@@ -52,7 +55,8 @@ pub struct HalfSpace {
     kernel: Kernel,
     threads: usize,
     /// The last used is the last.
-    kept: Vec<(Sizes, Convolution)>,
+    kept: Vec<Convolution>,
+    room: Room,
 }
 
 impl HalfSpace {
@@ -69,26 +73,30 @@ impl HalfSpace {
         let modulus_unit = power_of_two(modulus);
         let datum = datum.map_or(0.5 * cells.counts[0] as f64 * spacing[0], |datum| datum / length);
         let kernel = Kernel::new(flat, boundary, cells.counts, spacing, modulus_unit / modulus, datum);
-        HalfSpace { cells, length, modulus_unit, kernel, threads, kept: Vec::new() }
+        HalfSpace { cells, length, modulus_unit, kernel, threads, kept: Vec::new(), room: Room::default() }
     }
 
     /// The convolution over a window, kept or made; to be given back by [`HalfSpace::keep`].
-    fn convolution(&mut self, sizes: Sizes) -> Convolution {
-        match self.kept.iter().position(|(kept, _)| *kept == sizes) {
-            Some(place) => self.kept.remove(place).1,
+    fn convolution(&mut self, (counts, padded): Sizes) -> Convolution {
+        match self.kept.iter().position(|kept| kept.padded() == padded) {
+            Some(place) => {
+                let mut convolution = self.kept.remove(place);
+                convolution.turn_to(counts);
+                convolution
+            }
             None => {
                 // Before the new one is made, so that no more than the kept ones are there at a time.
                 if self.kept.len() >= KEPT {
                     self.kept.remove(0);
                 }
-                self.kernel.convolution(sizes, self.threads)
+                self.kernel.convolution((counts, padded), self.threads)
             }
         }
     }
 
     /// Keeps a convolution for later.
-    fn keep(&mut self, sizes: Sizes, convolution: Convolution) {
-        self.kept.push((sizes, convolution));
+    fn keep(&mut self, convolution: Convolution) {
+        self.kept.push(convolution);
     }
 }
 
@@ -105,13 +113,13 @@ impl ContactModel for HalfSpace {
         let sizes = self.kernel.sizes(self.cells.counts);
         let mut convolution = self.convolution(sizes);
         convolution.apply(&Dense { width: self.cells.counts[0], input: pressure }, out);
-        self.keep(sizes, convolution);
+        self.keep(convolution);
         let compliance = self.length / self.modulus_unit;
         out.iter_mut().for_each(|u| *u *= compliance);
     }
 
     fn bytes(&self) -> usize {
-        let kept: usize = self.kept.iter().map(|(_, convolution)| convolution.bytes()).sum();
-        size_of::<Self>() + kept + self.kernel.bytes()
+        let kept: usize = self.kept.iter().map(Convolution::bytes).sum();
+        size_of::<Self>() + kept + self.kernel.bytes() + self.room.bytes()
     }
 }

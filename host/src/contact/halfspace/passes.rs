@@ -6,8 +6,10 @@ use rayon::prelude::*;
 
 /// Numbers in a chunk.
 const CHUNK: usize = 8192;
+/// Sums side by side, so that additions do not wait for each other.
+const LANES: usize = 8;
 /// Length from which threads pay for themselves.
-const WORTH: usize = 1 << 15;
+pub const WORTH: usize = 1 << 15;
 
 /// What a function makes of each chunk of 0..count, in order.
 pub fn each_chunk<T: Send>(threads: usize, count: usize, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
@@ -38,7 +40,28 @@ pub fn sum(threads: usize, count: usize, of: impl Fn(usize) -> f64 + Sync) -> f6
 
 /// Sum of products.
 pub fn dot(threads: usize, a: &[f64], b: &[f64]) -> f64 {
-    sum(threads, a.len().min(b.len()), |i| a[i] * b[i])
+    let part = |range: Range<usize>| {
+        let (a, b) = (a[range.clone()].chunks_exact(LANES), b[range].chunks_exact(LANES));
+        let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+        let mut lanes = [0.0; LANES];
+        for (a, b) in a.zip(b) {
+            for lane in 0..LANES {
+                lanes[lane] += a[lane] * b[lane];
+            }
+        }
+        lanes.into_iter().sum::<f64>() + rest
+    };
+    each_chunk(threads, a.len().min(b.len()), part).into_iter().sum()
+}
+
+/// to += factor * other.
+pub fn add(threads: usize, to: &mut [f64], factor: f64, other: &[f64]) {
+    let one = |to: &mut [f64], other: &[f64]| to.iter_mut().zip(other).for_each(|(to, other)| *to += factor * other);
+    if threads > 1 && to.len() >= WORTH {
+        to.par_chunks_mut(CHUNK).zip(other.par_chunks(CHUNK)).for_each(|(to, other)| one(to, other));
+    } else {
+        one(to, other);
+    }
 }
 
 /// Changes every number of an array, knowing its place.

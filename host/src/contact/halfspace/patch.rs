@@ -1,10 +1,11 @@
 //! A contact problem on a window of the cells, with the operator A + b on it.
 
 use super::Boundary;
-use super::contact_set::{ContactSet, OnSet};
+use super::contact_set::{ContactSet, FromSet, OnSet};
 use super::convolve::{Convolution, Dense};
 use super::kernel::Kernel;
 use super::local::smoothed;
+use super::room::Room;
 
 /// A problem on a window, in scaled units, gaps counted from the datum of the problem.
 pub struct Patch<'a> {
@@ -24,6 +25,10 @@ pub struct Patch<'a> {
     pub smoothed: bool,
     /// Sum of all pressures; if there is none, the approach is 0.
     pub sum: Option<f64>,
+    /// Along which axes, and there on which side, the surface goes on beyond it.
+    pub cut: [[bool; 2]; 2],
+    /// Arrays to work with.
+    pub room: Room,
     /// Threads.
     pub threads: usize,
     /// Pairs of transforms so far.
@@ -62,8 +67,11 @@ impl Patch<'_> {
             let mut smooth = vec![0.0; pressure.len()];
             smoothed(self.counts, self.sides(), pressure, &mut smooth);
             out.iter_mut().enumerate().for_each(|(cell, out)| *out += self.local(cell) * smooth[cell]);
+        } else if let [uniform] = self.local[..] {
+            out.iter_mut().zip(pressure).for_each(|(out, pressure)| *out += uniform * pressure);
         } else {
-            out.iter_mut().enumerate().for_each(|(cell, out)| *out += self.local(cell) * pressure[cell]);
+            let all = out.iter_mut().zip(pressure).zip(&self.local);
+            all.for_each(|((out, pressure), local)| *out += local * pressure);
         }
     }
 
@@ -86,6 +94,37 @@ impl Patch<'_> {
                 *out += self.local(*cell as usize) * value;
             }
         }
+    }
+
+    /// out = (A + b) times values on a set, over the window.
+    pub fn image_over(&mut self, set: &ContactSet, values: &[f64], out: &mut [f64]) {
+        self.convolution.apply(&FromSet(OnSet { set, values }), out);
+        self.pairs += 1;
+        if self.local.is_empty() {
+            return;
+        }
+        if self.smoothed {
+            let (mut field, mut smooth) = (vec![0.0; out.len()], vec![0.0; out.len()]);
+            set.scatter(values, &mut field);
+            smoothed(self.counts, self.sides(), &field, &mut smooth);
+            out.iter_mut().enumerate().for_each(|(cell, out)| *out += self.local(cell) * smooth[cell]);
+        } else {
+            let uniform = self.local[0];
+            let varies = self.varies();
+            for (value, cell) in values.iter().zip(&set.cells) {
+                let cell = *cell as usize;
+                out[cell] += if varies { self.local[cell] } else { uniform } * value;
+            }
+        }
+    }
+
+    /// Whether there is pressure where the surface goes on beyond the window.
+    pub fn is_outgrown(&self, pressure: &[f64]) -> bool {
+        let [nx, ny] = self.counts;
+        let column = |x: usize| (0..ny).any(|y| pressure[y * nx + x] > 0.0);
+        let row = |y: usize| pressure[y * nx..(y + 1) * nx].iter().any(|p| *p > 0.0);
+        let [x, y] = self.cut;
+        x[0] && column(0) || x[1] && column(nx - 1) || y[0] && row(0) || y[1] && row(ny - 1)
     }
 
     /// What is beyond the sides of the window: itself or no pressure.

@@ -9,9 +9,10 @@
 //! the cells with pressure that ends where the first of them has none left (Moré and Toraldo, SIAM J. Optim. 1, 1991).
 
 use super::contact_set::ContactSet;
-use super::descend::{Descent, Goal};
+use super::descend::{Descent, Followed, Goal};
+use super::passes::sum;
 use super::patch::Patch;
-use super::state::{State, enlarge, go_back, project, rescale, start, stop_at_zero};
+use super::state::{self, State, enlarge, go_back, project, start, stop_at_zero};
 use super::stencil::Stencil;
 
 /// Rounds after which a search is given up, and those without progress.
@@ -27,6 +28,12 @@ const CHANGED: f64 = 0.15;
 const SAME: f64 = 0.01;
 /// How much of the residual wrong pressures may make up; see [`Goal::wrong`].
 const WRONG: f64 = 2.0;
+/// Iterations of a descent for which the displacement is kept everywhere; see [`Followed`].
+const FOLLOWED: u64 = 4;
+/// Bars below this times the floor of rounding are only met by a displacement that was computed anew.
+const SURE: f64 = 1e4;
+/// Relative difference from the sum that is given which rounding makes.
+const ROUNDING: f64 = 1e-13;
 
 /// How exact an answer has to be.
 #[derive(Clone, Copy, Debug)]
@@ -52,39 +59,68 @@ pub struct Outcome {
     pub bar: f64,
     /// Whether the error is small enough.
     pub converged: bool,
+    /// Whether the contact has come to where the surface goes on beyond the window, and so was not finished.
+    pub outgrown: bool,
 }
 
 /// Finds the contact and its pressures over the window, from a start.
-pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>) -> Outcome {
-    let count = pressure.len();
+pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut [f64]) -> Outcome {
     start(patch, pressure);
-    let mut u = vec![0.0; count];
+    let mut u = patch.room.take(pressure.len());
+    let mut stencil = None;
+    let outcome = rounds(patch, accuracy, pressure, &mut u, &mut stencil);
+    patch.room.give(u);
+    if let Some(stencil) = stencil {
+        stencil.end(patch);
+    }
+    outcome
+}
+
+/// The rounds of a search; `u` and `stencil` are room.
+fn rounds(
+    patch: &mut Patch<'_>,
+    accuracy: Accuracy,
+    pressure: &mut [f64],
+    u: &mut Vec<f64>,
+    stencil: &mut Option<Stencil>,
+) -> Outcome {
     let (mut before, mut u_before) = (Vec::new(), Vec::new());
     let mut last = State::default();
     let mut set = ContactSet::default();
-    let mut stencil = None;
     let mut best = (f64::INFINITY, 0.0, 0, ContactSet::default(), Vec::new());
     let mut iterations = 0;
     let (mut guarded, mut careful) = (false, 0);
+    // Whether u is that of the pressures already.
+    let mut known = false;
     for round in 0.. {
-        patch.evaluate(pressure, &mut u);
-        let mut state = State::of(patch, pressure, &u);
-        if patch.sum.is_none() && state.weighted[0] != 0.0 {
-            enlarge(patch, pressure, &mut u, &state);
-            state = State::of(patch, pressure, &u);
-        }
         // Without symmetry the energy is no more than a way out of the circle.
         guarded = round > best.2 + LENIENCE || guarded && patch.symmetric();
-        if guarded && state.energy > last.energy + 1e-12 * state.energies {
-            let step = go_back(patch, &before, &u_before, pressure, &mut u);
-            if careful == 0 && step < 0.5 {
-                careful = CAREFUL;
+        let (state, scale, floor, bar) = loop {
+            if !known {
+                patch.evaluate(pressure, u);
             }
-            state = State::of(patch, pressure, &u);
-        }
-        let scale = if accuracy.scale > 0.0 { accuracy.scale } else { state.displaced };
-        let floor = 8.0 * f64::EPSILON * (state.displaced + state.height);
-        let bar = (accuracy.tolerance * scale).max(accuracy.rough * state.displaced).max(floor);
+            let mut state = State::of(patch, pressure, u);
+            if patch.sum.is_none() && state.weighted[0] != 0.0 {
+                enlarge(patch, pressure, u, &state);
+                state = State::of(patch, pressure, u);
+            }
+            if guarded && state.energy > last.energy + 1e-12 * state.energies {
+                let step = go_back(patch, &before, &u_before, pressure, u);
+                if careful == 0 && step < 0.5 {
+                    careful = CAREFUL;
+                }
+                state = State::of(patch, pressure, u);
+            }
+            let scale = if accuracy.scale > 0.0 { accuracy.scale } else { state.displaced };
+            let floor = 8.0 * f64::EPSILON * (state.displaced + state.height);
+            let bar = (accuracy.tolerance * scale).max(accuracy.rough * state.displaced).max(floor);
+            if known && bar < SURE * floor && state.error(patch) <= bar {
+                // What rounding has added up to on the way may count.
+                known = false;
+                continue;
+            }
+            break (state, scale, floor, bar);
+        };
         let (error, approach) = (state.error(patch), state.approach(patch));
         let outcome = |error: f64, approach: f64, converged: bool| Outcome {
             approach,
@@ -92,14 +128,20 @@ pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>
             error: if scale > 0.0 { error / scale } else { error },
             bar,
             converged,
+            outgrown: false,
         };
         if error <= bar {
             return outcome(error, approach, true);
         }
-        let touching = ContactSet::of(patch.counts, |cell| pressure[cell] > 0.0);
+        if round > 1 && patch.is_outgrown(pressure) {
+            return Outcome { outgrown: true, ..outcome(error, approach, false) };
+        }
+        // The last careful round is on the cells with pressure alone.
+        let joins = if careful == 1 { f64::NEG_INFINITY } else { approach - 0.25 * bar };
+        let now = ContactSet::touching(patch.counts[0], pressure, &patch.gap, u, joins);
         if error < 0.9 * best.0 {
-            let values = touching.gather(pressure);
-            best = (error, approach, round, touching, values);
+            let values = now.gather(pressure);
+            best = (error, approach, round, now.clone(), values);
         }
         if round >= MOST_ROUNDS || round > best.2 + PATIENCE || !error.is_finite() {
             pressure.fill(0.0);
@@ -107,35 +149,54 @@ pub fn search(patch: &mut Patch<'_>, accuracy: Accuracy, pressure: &mut Vec<f64>
             // What rounding left over is no failure.
             return outcome(best.0, best.1, best.0 <= 64.0 * floor);
         }
-        // The last careful round is on the cells with pressure alone.
-        let joins = if careful == 1 { f64::NEG_INFINITY } else { approach - 0.25 * bar };
-        let now = ContactSet::of(patch.counts, |cell| pressure[cell] > 0.0 || patch.gap[cell] + u[cell] < joins);
         let same = now == set;
         set = now;
         let stencil = stencil.get_or_insert_with(|| Stencil::new(patch, &set));
-        stencil.turn_to(patch, &set);
+        if !same {
+            stencil.turn_to(patch, &set);
+        }
         let residual = set.cells.iter().map(|cell| patch.gap[*cell as usize] + u[*cell as usize] - approach).collect();
         let mut descent = Descent { pressure: set.gather(pressure), residual, iterations: 0 };
+        let next_guarded = guarded || round + 1 > best.2 + LENIENCE;
+        if next_guarded {
+            before.clear();
+            before.extend_from_slice(pressure);
+            u_before.clear();
+            u_before.extend_from_slice(u);
+        }
+        known = false;
         if careful > 1 {
             descent.straight(patch, &set);
             project(patch, &mut descent.pressure);
         } else {
             let reduction = if same { SAME } else { CHANGED };
             let norm = reduction * descent.norm(patch);
-            descent.run(patch, &set, stencil, &Goal { norm, error: 0.5 * bar, wrong: WRONG, most: MOST_ITERATIONS });
+            let goal = Goal { norm, error: 0.5 * bar, wrong: WRONG, most: MOST_ITERATIONS };
+            let mut followed = Followed { u, most: FOLLOWED, kept: !next_guarded };
+            descent.run(patch, &set, stencil, &goal, &mut followed);
+            known = followed.kept;
             if careful == 1 {
                 stop_at_zero(&set.gather(pressure), &mut descent.pressure);
             }
+            known &= descent.pressure.iter().all(|p| *p >= 0.0);
             descent.pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         }
         careful = careful.saturating_sub(1);
         iterations += descent.iterations;
-        before.clone_from(pressure);
-        std::mem::swap(&mut u, &mut u_before);
-        u.resize(count, 0.0);
         last = state;
         set.scatter(&descent.pressure, pressure);
-        rescale(patch, pressure);
+        known &= rescale(patch, &descent.pressure, pressure);
     }
     unreachable!("the rounds end by themselves")
+}
+
+/// Gives the pressures the sum that is given; they are these on a set and zero elsewhere. Whether that was rounding alone.
+fn rescale(patch: &Patch<'_>, on_set: &[f64], pressure: &mut [f64]) -> bool {
+    let Some(wanted) = patch.sum else { return true };
+    let factor = wanted / sum(patch.threads, on_set.len(), |at| on_set[at]);
+    if (factor - 1.0).abs() <= ROUNDING {
+        return true;
+    }
+    state::rescale(patch, pressure);
+    false
 }

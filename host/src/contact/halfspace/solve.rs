@@ -87,21 +87,29 @@ impl Job<'_> {
     /// Does something with the problem on a window.
     fn on<R>(&mut self, window: &Window, act: impl FnOnce(&mut Patch<'_>) -> R) -> R {
         let mut convolution = self.model.convolution(window.sizes);
+        let mut gap = self.model.room.take(window.sizes.0[0] * window.sizes.0[1]);
+        window.gather_into(|cell| self.scaled.gap(cell), &mut gap);
         let mut patch = Patch {
             kernel: &self.model.kernel,
             convolution: &mut convolution,
             counts: window.sizes.0,
             wraps: window.wraps(self.model.kernel.boundary),
-            gap: window.gather(|cell| self.scaled.gap(cell)),
+            gap,
             local: self.scaled.varying().map_or_else(|| self.scaled.uniform(), |local| window.gather(local)),
             smoothed: self.problem.smoothed,
             sum: self.scaled.sum,
+            cut: window.cut(self.model.kernel.boundary),
+            room: std::mem::take(&mut self.model.room),
             threads: self.model.threads,
             pairs: 0,
         };
         let result = act(&mut patch);
         self.pairs += patch.pairs;
-        self.model.keep(window.sizes, convolution);
+        let Patch { gap, local, mut room, .. } = patch;
+        room.give(gap);
+        room.give(local);
+        self.model.room = room;
+        self.model.keep(convolution);
         result
     }
 
@@ -131,15 +139,17 @@ impl Job<'_> {
             if window.is_whole() {
                 return (window, values, outcome);
             }
-            let low = self.overlapping(&window, &values, &mut outcome);
-            if low.is_empty() {
+            let low = if outcome.outgrown { Vec::new() } else { self.overlapping(&window, &values, &mut outcome) };
+            if low.is_empty() && !outcome.outgrown {
                 return (window, values, outcome);
             }
             let kernel = &self.model.kernel;
             let mut extent = Extent::empty(kernel.counts);
             extent.mark_loaded(&window, &values);
             low.into_iter().for_each(|at| extent.mark(at));
-            let margin = [0, 1].map(|axis| if kernel.counts[axis] > 1 { 2 + window.sizes.0[axis] / 8 } else { 0 });
+            // A contact that was not finished may grow far beyond.
+            let part = if outcome.outgrown { 3 } else { 8 };
+            let margin = [0, 1].map(|axis| if kernel.counts[axis] > 1 { 2 + window.sizes.0[axis] / part } else { 0 });
             let larger = Window::around(kernel, margin, &extent).filter(|_| tried < MOST_WINDOWS);
             let larger = larger.unwrap_or_else(|| Window::whole(kernel));
             values = moved(&window, &values, &larger);
@@ -199,7 +209,7 @@ impl Job<'_> {
         let mut u = vec![0.0; field.len()];
         let mut convolution = self.model.convolution(view.sizes);
         convolution.apply(&Dense { width: view.sizes.0[0], input: &field }, &mut u);
-        self.model.keep(view.sizes, convolution);
+        self.model.keep(convolution);
         self.pairs += 1;
         let overlap = |at: [usize; 2], gap: f64| view.place(at).map_or(0.0, |place| outcome.approach - gap - u[place]);
         let most = doubtful.iter().map(|(at, gap)| overlap(*at, *gap)).fold(0.0, f64::max);

@@ -3,6 +3,11 @@
 use super::passes::{change, each_chunk, sum};
 use super::patch::Patch;
 
+/// Cells that are looked at together.
+const BLOCK: usize = 32;
+/// Comparisons side by side.
+const LANES: usize = 8;
+
 /// What a pressure and its displacement amount to.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct State {
@@ -28,11 +33,18 @@ impl State {
         let own = patch.kernel.mode([1, 0], [2, 1]);
         let parts = each_chunk(patch.threads, pressure.len(), |range| {
             let mut part = State { lowest: f64::INFINITY, ..State::default() };
-            for cell in range {
-                let (p, first, u) = (pressure[cell], patch.gap[cell], u[cell]);
-                let gap = first + u;
-                part.lowest = part.lowest.min(gap);
-                if p > 0.0 {
+            for first in range.clone().step_by(BLOCK) {
+                let cells = first..range.end.min(first + BLOCK);
+                let (pressure, gap, u) = (&pressure[cells.clone()], &patch.gap[cells.clone()], &u[cells.clone()]);
+                part.lowest = part.lowest.min(least(gap, u));
+                // Without a branch for each cell, because most blocks are without pressure.
+                if !pressure.iter().fold(false, |any, p| any | (*p > 0.0)) {
+                    continue;
+                }
+                for (((p, first), u), cell) in
+                    pressure.iter().zip(gap).zip(u).zip(cells).filter(|(((p, _), _), _)| **p > 0.0)
+                {
+                    let gap = first + u;
                     part.total += p;
                     part.weighted[0] += p * gap;
                     part.weighted[1] += p * gap.abs();
@@ -69,6 +81,21 @@ impl State {
         let mean = if self.total > 0.0 { self.weighted[1] / self.total } else { 0.0 };
         mean + (-self.lowest).max(0.0)
     }
+}
+
+/// The least of the sums of two arrays.
+fn least(a: &[f64], b: &[f64]) -> f64 {
+    // Side by side, so that comparisons do not wait for each other.
+    let mut lanes = [f64::INFINITY; LANES];
+    let (a, b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let rest = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a + b);
+    for (a, b) in a.zip(b) {
+        for lane in 0..LANES {
+            let sum = a[lane] + b[lane];
+            lanes[lane] = if sum < lanes[lane] { sum } else { lanes[lane] };
+        }
+    }
+    lanes.into_iter().chain(rest).fold(f64::INFINITY, f64::min)
 }
 
 /// Goes to the state with the least energy between the one before and this one; says how much of the way is left.

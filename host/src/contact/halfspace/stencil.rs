@@ -7,7 +7,11 @@
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
+
 use super::contact_set::ContactSet;
+use super::neighbours::{Neighbours, RUN};
+use super::passes::WORTH;
 use super::patch::Patch;
 
 /// Cells on either side.
@@ -18,12 +22,16 @@ const GRID_3D: usize = 32;
 const GRID_2D: usize = 128;
 /// Numbers that are added side by side.
 const LANES: usize = 8;
+/// Runs that one thread does at a time.
+const SHARE: usize = 2048;
 
 /// A near inverse of A + b on a set, symmetric and positive definite.
 pub struct Stencil {
     reach: [usize; 2],
     /// `[2 reach y + 1][2 reach x + 1]`, each row with zeros behind it up to whole lanes.
     entries: Vec<f64>,
+    /// The quarter of them that tells all: `[reach y + 1][reach x + 1]`.
+    quarter: Vec<f64>,
     /// What a cell alone would give without local compliance, and the stiffness that the entries are for.
     own: f64,
     mean: f64,
@@ -33,13 +41,15 @@ pub struct Stencil {
     pitch: usize,
     /// Places of the cells of the set in `field`.
     places: Vec<u32>,
+    /// Where runs of at most [`RUN`] neighbours begin in the set, and its end.
+    runs: Vec<u32>,
     /// One for each cell of the set, or none.
     factors: Vec<f64>,
 }
 
 impl Stencil {
     /// For the local compliances of a set, about.
-    pub fn new(patch: &Patch<'_>, set: &ContactSet) -> Stencil {
+    pub fn new(patch: &mut Patch<'_>, set: &ContactSet) -> Stencil {
         let [nx, ny] = patch.counts;
         let (reach, size) = if patch.kernel.flat {
             ([REACH_2D.min(nx / 2), 0], [GRID_2D, 1])
@@ -49,31 +59,57 @@ impl Stencil {
         let mut entries = inverse(patch, size, reach, 0.0);
         let own = 1.0 / entries[entries.len() / 2];
         let stiffness = |cell: &u32| 1.0 / (own + patch.local(*cell as usize));
-        let mean = set.cells.iter().map(stiffness).sum::<f64>() / set.len().max(1) as f64;
+        let mean = match patch.varies() {
+            true => set.cells.iter().map(stiffness).sum::<f64>() / set.len().max(1) as f64,
+            false => 1.0 / (own + patch.local(0)),
+        };
         let local = if patch.varies() { (1.0 / mean - own).max(0.0) } else { patch.local(0) };
         if local > 0.0 {
             entries = inverse(patch, size, reach, local);
         }
-        let entries = spread(&entries, 2 * reach[0] + 1);
+        let wide = 2 * reach[0] + 1;
+        let quarter = (0..=reach[1]).flat_map(|y| (0..=reach[0]).map(move |x| [x, y]));
+        let quarter = quarter.map(|[x, y]| entries[(reach[1] + y) * wide + reach[0] + x]).collect();
+        let entries = spread(&entries, wide);
         let pitch = nx + 2 * reach[0];
         // The last rows are read a little beyond their end.
-        let field = vec![0.0; pitch * (ny + 2 * reach[1]) + LANES];
-        Stencil { reach, entries, own, mean, field, pitch, places: Vec::new(), factors: Vec::new() }
+        let mut field = patch.room.take(pitch * (ny + 2 * reach[1]) + LANES);
+        field.fill(0.0);
+        let (places, runs, factors) = (Vec::new(), Vec::new(), Vec::new());
+        Stencil { reach, entries, quarter, own, mean, field, pitch, places, runs, factors }
     }
 
     /// Confines it to a set.
     pub fn turn_to(&mut self, patch: &Patch<'_>, set: &ContactSet) {
         if patch.varies() {
             let stiffness = |cell: &u32| 1.0 / (self.own + patch.local(*cell as usize));
-            self.factors = set.cells.iter().map(|cell| (stiffness(cell) / self.mean).sqrt()).collect();
+            self.factors.clear();
+            self.factors.extend(set.cells.iter().map(|cell| (stiffness(cell) / self.mean).sqrt()));
         }
         self.places.iter().for_each(|place| self.field[*place as usize] = 0.0);
-        let [nx, _] = patch.counts;
-        let place = |cell: &u32| {
-            let (x, y) = (*cell as usize % nx, *cell as usize / nx);
-            ((y + self.reach[1]) * self.pitch + x + self.reach[0]) as u32
-        };
-        self.places = set.cells.iter().map(place).collect();
+        self.places.clear();
+        self.runs.clear();
+        let [nx, ny] = patch.counts;
+        for row in 0..ny {
+            let (begin, cells) = set.row(row);
+            // From places in the window to places in the field.
+            let shift = ((row + self.reach[1]) * self.pitch + self.reach[0] - row * nx) as u32;
+            self.places.extend(cells.iter().map(|cell| cell + shift));
+            let (mut next, mut length) = (u32::MAX, 0);
+            for (at, cell) in (begin..).zip(cells) {
+                if *cell != next || length == RUN {
+                    self.runs.push(at as u32);
+                    length = 0;
+                }
+                (next, length) = (cell + 1, length + 1);
+            }
+        }
+        self.runs.push(self.places.len() as u32);
+    }
+
+    /// Gives its array back.
+    pub fn end(self, patch: &mut Patch<'_>) {
+        patch.room.give(self.field);
     }
 
     /// What a cell does to itself, about.
@@ -91,25 +127,51 @@ impl Stencil {
             }
         }
         self.wrap(patch);
+        if patch.threads > 1 && out.len() >= WORTH {
+            let (mut shares, mut rest) = (Vec::new(), out);
+            for first in (0..self.runs.len() - 1).step_by(SHARE) {
+                let runs = &self.runs[first..self.runs.len().min(first + SHARE + 1)];
+                let (own, others) = rest.split_at_mut((runs[runs.len() - 1] - runs[0]) as usize);
+                shares.push((runs, own));
+                rest = others;
+            }
+            shares.into_par_iter().for_each(|(runs, out)| self.act(runs, out));
+        } else {
+            self.act(&self.runs, out);
+        }
+    }
+
+    /// What it does for the runs that begin here, but for the last.
+    fn act(&self, runs: &[u32], out: &mut [f64]) {
+        let near = Neighbours { field: &self.field, pitch: self.pitch, quarter: &self.quarter };
+        let first = runs[0] as usize;
+        match self.reach {
+            [REACH_3D, REACH_3D] => near.sums::<REACH_3D>(&self.places, runs, out),
+            [REACH_2D, 0] => near.sums::<REACH_2D>(&self.places, runs, out),
+            _ => out.iter_mut().zip(&self.places[first..]).for_each(|(out, place)| *out = self.single(*place as usize)),
+        }
+        if !self.factors.is_empty() {
+            out.iter_mut().zip(&self.factors[first..]).for_each(|(out, factor)| *out *= factor);
+        }
+    }
+
+    /// What it does for one cell.
+    fn single(&self, place: usize) -> f64 {
         let [rx, ry] = self.reach;
         let (wide, high) = (in_lanes(2 * rx + 1), 2 * ry + 1);
-        let before = ry * self.pitch + rx;
-        let act = |at: usize, _: f64| {
-            let first = self.places[at] as usize - before;
-            // Side by side, so that additions do not wait for each other.
-            let mut sums = [0.0; LANES];
-            for row in 0..high {
-                let values = &self.field[first + row * self.pitch..][..wide];
-                let entries = &self.entries[row * wide..][..wide];
-                for (values, entries) in values.chunks_exact(LANES).zip(entries.chunks_exact(LANES)) {
-                    for lane in 0..LANES {
-                        sums[lane] += values[lane] * entries[lane];
-                    }
+        let first = place - ry * self.pitch - rx;
+        // Side by side, so that additions do not wait for each other.
+        let mut sums = [0.0; LANES];
+        for row in 0..high {
+            let values = &self.field[first + row * self.pitch..][..wide];
+            let entries = &self.entries[row * wide..][..wide];
+            for (values, entries) in values.chunks_exact(LANES).zip(entries.chunks_exact(LANES)) {
+                for lane in 0..LANES {
+                    sums[lane] += values[lane] * entries[lane];
                 }
             }
-            sums.iter().sum::<f64>() * self.factors.get(at).copied().unwrap_or(1.0)
-        };
-        super::passes::change(patch.threads, out, act);
+        }
+        sums.iter().sum()
     }
 
     /// Repeats the field beyond the sides where the window is the whole of a periodic surface.
@@ -130,28 +192,33 @@ impl Stencil {
 
 /// The entries: the inverse transform of 1 / (a + b m), a being the compliance of a mode and m what smoothing leaves of it.
 fn inverse(patch: &Patch<'_>, size: [usize; 2], reach: [usize; 2], local: f64) -> Vec<f64> {
-    let wave = |k: usize, axis: usize| 2.0 * PI * k as f64 / size[axis] as f64;
-    let smooth = |k: usize, axis: usize| if patch.smoothed { (0.5 * wave(k, axis)).cos().powi(2) } else { 1.0 };
+    let cosines = size.map(|size| (0..size).map(|k| (2.0 * PI * k as f64 / size as f64).cos()).collect::<Vec<_>>());
+    let half = size.map(|size| size / 2 + 1);
+    // Waves k and size - k are the same.
+    let twice = |k: usize, axis: usize| if k == 0 || 2 * k == size[axis] { 1.0 } else { 2.0 };
+    let smooth = |k: usize, axis: usize| if patch.smoothed { 0.5 + 0.5 * cosines[axis][k] } else { 1.0 };
     // A uniform displacement needs no pressure, or far less than any other.
     let stiffness = |x: usize, y: usize| {
         let compliance = patch.kernel.mode([x, y], size);
         let all = compliance + local * smooth(x, 0) * smooth(y, 1);
-        if compliance == 0.0 { 0.0 } else { 1.0 / all }
+        if compliance == 0.0 { 0.0 } else { twice(x, 0) * twice(y, 1) / all }
     };
     let cells = (size[0] * size[1]) as f64;
     let (wide, high) = (2 * reach[0] + 1, 2 * reach[1] + 1);
     let mut entries = vec![0.0; wide * high];
     // First over x for each wave in y, then over y.
-    let mut along = vec![0.0; (reach[0] + 1) * size[1]];
-    for y in 0..size[1] {
-        for x in 0..=reach[0] {
-            let terms = (0..size[0]).map(|k| stiffness(k, y) * (wave(k, 0) * x as f64).cos());
-            along[x * size[1] + y] = terms.sum::<f64>() / cells;
+    let mut along = vec![0.0; (reach[0] + 1) * half[1]];
+    for y in 0..half[1] {
+        for k in 0..half[0] {
+            let stiffness = stiffness(k, y) / cells;
+            for x in 0..=reach[0] {
+                along[x * half[1] + y] += stiffness * cosines[0][k * x % size[0]];
+            }
         }
     }
     for y in 0..=reach[1] {
         for x in 0..=reach[0] {
-            let value: f64 = (0..size[1]).map(|k| along[x * size[1] + k] * (wave(k, 1) * y as f64).cos()).sum();
+            let value: f64 = (0..half[1]).map(|k| along[x * half[1] + k] * cosines[1][k * y % size[1]]).sum();
             for (row, column) in [
                 (reach[1] - y, reach[0] - x),
                 (reach[1] - y, reach[0] + x),

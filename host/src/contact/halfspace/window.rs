@@ -60,7 +60,16 @@ impl Window {
 
     /// Along which axes it is the whole of a period.
     pub fn wraps(&self, boundary: Boundary) -> [bool; 2] {
-        [0, 1].map(|axis| boundary == Boundary::Periodic && self.sizes.1[axis] == self.all[axis])
+        [0, 1].map(|axis| boundary == Boundary::Periodic && self.sizes.0[axis] == self.all[axis])
+    }
+
+    /// On which sides of each axis the surface goes on beyond it.
+    pub fn cut(&self, boundary: Boundary) -> [[bool; 2]; 2] {
+        [0, 1].map(|axis| {
+            let (count, all, first) = (self.sizes.0[axis], self.all[axis], self.origin[axis]);
+            let on = boundary == Boundary::Periodic && count < all;
+            [on || first > 0, on || first + count < all]
+        })
     }
 
     /// The place in the window of a column and row of the surface.
@@ -95,6 +104,16 @@ impl Window {
             let begin = row + self.origin[0];
             [begin..begin + first, row..row + nx - first]
         })
+    }
+
+    /// The same, into an array over the window.
+    pub fn gather_into<T>(&self, of: impl Fn(usize) -> T, to: &mut [T]) {
+        let mut rest = to;
+        for range in self.ranges() {
+            let (part, others) = std::mem::take(&mut rest).split_at_mut(range.len());
+            part.iter_mut().zip(range).for_each(|(to, cell)| *to = of(cell));
+            rest = others;
+        }
     }
 
     /// The values of an array over the surface under the window.

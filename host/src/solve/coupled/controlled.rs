@@ -28,7 +28,7 @@ const EVEN: f64 = 0.25;
 /// Steps of a pass from which on its last step is cut.
 const TAILED: u64 = 4;
 /// Where the last step is cut.
-const TAIL: [f64; 3] = [0.6, 0.84, 0.94];
+const TAIL: [f64; 4] = [0.6, 0.84, 0.94, 0.98];
 /// Largest factor between the steps of two passes: a finer pass also knows better where steps are needed.
 const MOST_MORE: u64 = 3;
 /// Passes that may fail in the contact solve before the run gives up.
@@ -90,7 +90,9 @@ impl<'p> Coupled<'p> {
             going.stepper.return_to(system, &begin);
             // Uneven steps could be beyond the limit that their number keeps.
             let guide = coarse.as_ref().filter(|_| !self.has_limit());
+            system.trial = coarse.is_none();
             let tried = self.pass(system, going, segment, (start, until, number), (steps, guide, cycles_per_time));
+            system.trial = false;
             if tried.is_err() {
                 // Nothing of a trial stays.
                 going.stepper.return_to(system, &begin);

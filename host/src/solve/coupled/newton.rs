@@ -53,13 +53,17 @@ impl System<'_> {
         (point, diagonal, line): (&mut Vec<f64>, &mut Vec<f64>, &mut Vec<f64>),
     ) -> Result<Reply, PointError> {
         let open = self.evaluator.descriptor().wants_open_points();
-        let tolerance = self.solved.contact_tolerance;
         let per_increment = weight / self.substep.dt;
+        let mut tolerance = self.solved.contact_tolerance;
         let (mut best, mut since_best, mut residual) = (f64::INFINITY, 0, f64::INFINITY);
         let cells = point.len();
         for iteration in 0..MOST_ITERATIONS {
             if let cut @ Reply::Cut(_) = self.linearise(driven, point, open)? {
                 return Ok(cut);
+            }
+            if iteration == 0 {
+                let (sum, square) = self.law.increment.iter().fold((0.0, 0.0), |(s, q), w| (s + w, q + w * w));
+                tolerance = self.stage_tolerance(if sum > 0.0 { per_increment * square / sum } else { 0.0 });
             }
             self.open_gap(base);
             diagonal.clear();

@@ -102,6 +102,8 @@ impl<'p> Coupled<'p> {
             work: Work::default(),
             room: Room::default(),
             steady: None,
+            trial: false,
+            stands: true,
         }
     }
 

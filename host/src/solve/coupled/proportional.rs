@@ -38,10 +38,9 @@ impl System<'_> {
         rate: &mut [f64],
     ) -> Result<Reply, PointError> {
         let smoothed = self.smoothed();
-        let tolerance = self.solved.contact_tolerance;
         self.open_gap(base);
         if self.pressure.iter().all(|pressure| *pressure == 0.0) {
-            self.solve(driven.control, Diagonal::Zero, false, tolerance)?;
+            self.solve(driven.control, Diagonal::Zero, false, self.solved.contact_tolerance)?;
         }
         let probe = self.probe_pressure();
         let factor = weight / self.substep.dt / probe;
@@ -55,6 +54,7 @@ impl System<'_> {
                 return Ok(cut);
             }
             let b = self.law.increment[0] * factor;
+            let tolerance = self.stage_tolerance(b * probe);
             self.solve(driven.control, Diagonal::Uniform(b), smoothed, tolerance)?;
             return self.judged(driven, b_of(&Diagonal::Uniform(b)), weight, rate);
         }
@@ -75,6 +75,8 @@ impl System<'_> {
             for (cell, increment) in wanted.iter().zip(&self.law.increment) {
                 diagonal[*cell as usize] = increment * factor;
             }
+            let most = diagonal.iter().fold(0.0, |most: f64, b| most.max(*b));
+            let tolerance = self.stage_tolerance(most * probe);
             let solved = self.solve(driven.control, Diagonal::PerPoint(&diagonal), smoothed, tolerance);
             if let Err(error) = solved {
                 self.room.diagonal = diagonal;

@@ -64,7 +64,15 @@ pub(super) struct System<'s> {
     pub(super) room: Room,
     /// Under `post`: what the pressure was last solved for.
     pub(super) steady: Option<Control>,
+    /// Whether the steps are those of a pass that others are compared with and that does not stand itself.
+    pub(super) trial: bool,
+    /// Whether the pressure of the present stage stands, or only its wear is used.
+    pub(super) stands: bool,
 }
+
+/// Part of the wear of a stage, times the tolerance of the run, that the contact of the stage may be wrong by where only its
+/// wear is used.
+const LOOSE: f64 = 0.1;
 
 /// Arrays over the cells that are made anew in every stage.
 #[derive(Default)]
@@ -124,6 +132,21 @@ impl System<'_> {
         self.work.iterations += self.solution.iterations;
         self.work.fft_pairs += self.solution.fft_pairs;
         Ok(())
+    }
+
+    /// The contact tolerance of a stage that wears about `depth`.
+    ///
+    /// Where a run keeps to a tolerance, stages inside of steps, and steps of a pass that does not stand, need not be more
+    /// exact than that asks for.
+    pub(super) fn stage_tolerance(&self, depth: f64) -> f64 {
+        let exact = self.solved.contact_tolerance;
+        match self.plan.tolerance {
+            Some(tolerance) if !self.stands => {
+                let loose = LOOSE * tolerance * depth / self.gap_scale;
+                if loose > exact && loose.is_finite() { loose } else { exact }
+            }
+            _ => exact,
+        }
     }
 
     /// Writes the gap of a surface worn by `wear` into `room.gap`; `post` wears nothing away.
@@ -305,6 +328,9 @@ impl Answering for System<'_> {
 
     fn implicit(&mut self, at: f64, weight: f64, base: &[f64], rate: &mut [f64]) -> Result<Reply, PointError> {
         let driven = self.driven(at);
+        // The last stage lies at the end of the step.
+        let Substep { segment, start, dt, .. } = self.substep;
+        self.stands = !self.trial && (at - start) * segment.scale >= 0.999 * dt;
         self.measure_gap(base);
         if self.is_post() {
             self.press(driven.control, base)?;

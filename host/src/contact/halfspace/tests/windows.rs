@@ -18,8 +18,8 @@ fn agree(cells: Cells, boundary: Boundary, gap: &[f64], control: Control, what: 
     );
     assert!((solution.load / reference.load - 1.0).abs() < 1e-8, "{what}");
     // The window was smaller, or this test shows nothing.
-    assert!(model.kept.iter().any(|(sizes, _)| sizes.0 != cells.counts), "{what}");
-    assert!(whole.kept.iter().all(|(sizes, _)| sizes.0 == cells.counts), "{what}");
+    assert!(model.kept.iter().any(|kept| kept.counts != cells.counts), "{what}");
+    assert!(whole.kept.iter().all(|kept| kept.counts == cells.counts), "{what}");
     // From the answer a solve is short, and stays there.
     let again = model.solve(&problem, &mut cold).unwrap();
     assert!(again.iterations <= 4 && apart(&cold, &wanted) < 1e-6, "{what}: {again:?}");
@@ -120,5 +120,45 @@ fn a_frozen_contact_in_a_corner_is_solved_on_its_window() {
             assert!((left / all).sqrt() < 3e-12, "{boundary:?} {control:?}: {:e}", (left / all).sqrt());
             assert!(pressure.iter().zip(&set).all(|(p, on)| *on || *p == 0.0));
         }
+    }
+}
+
+#[test]
+fn a_contact_over_most_of_a_period_is_solved_on_its_window() {
+    let cells = plane([96, 80], [1e-3, 1e-3]);
+    let gap = bowl(&cells, 0.05);
+    let problem = problem(&gap, Control::Load(6e-4 * MODULUS));
+    let mut wanted = vec![1.0; cells.count()];
+    let reference = HalfSpace::new(cells, MODULUS, Boundary::Periodic, None, 1).solve(&problem, &mut wanted).unwrap();
+    let wide = (0..96).filter(|x| wanted[40 * 96 + x] > 0.0).count();
+    assert!((50..75).contains(&wide), "{wide} cells");
+    let mut model = HalfSpace::new(cells, MODULUS, Boundary::Periodic, None, 1);
+    let mut pressure: Vec<f64> = wanted.iter().map(|p| p.sqrt()).collect();
+    let solution = model.solve(&problem, &mut pressure).unwrap();
+    let kept = &model.kept[0];
+    assert!(kept.padded()[0] == 96 && kept.counts[0] < 96, "{:?} of {:?}", kept.counts, kept.padded());
+    assert!(apart(&pressure, &wanted) < 1e-6, "{}", apart(&pressure, &wanted));
+    assert!((solution.approach - reference.approach).abs() < 1e-9 * problem.scale);
+}
+
+#[test]
+fn rounds_on_cells_that_stay_in_contact_cost_no_transforms_of_their_own() {
+    let cells = plane([64, 64], [1e-3, 1e-3]);
+    let from = |i: usize| i as f64 - 32.0;
+    let punch = |cell: usize| if from(cell % 64).hypot(from(cell / 64)) < 20.0 { 0.0 } else { f64::INFINITY };
+    let gap: Vec<f64> = (0..cells.count()).map(punch).collect();
+    for boundary in [Boundary::Free, Boundary::Periodic] {
+        let scale = 1e-6;
+        let problem = Problem {
+            diagonal: Diagonal::Uniform(2e-2 / MODULUS),
+            tolerance: 1e-9,
+            scale,
+            ..problem(&gap, Control::Load(1e-9 * MODULUS))
+        };
+        let mut pressure: Vec<f64> = gap.iter().map(|gap| if *gap == 0.0 { 1.0 } else { 0.0 }).collect();
+        let solution = HalfSpace::new(cells, MODULUS, boundary, None, 1).solve(&problem, &mut pressure).unwrap();
+        // The start takes one, and each search direction.
+        assert!(solution.iterations > 4, "{solution:?}");
+        assert!(solution.fft_pairs <= solution.iterations + 2, "{boundary:?}: {solution:?}");
     }
 }
