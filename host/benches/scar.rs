@@ -51,7 +51,9 @@ fn main() {
         case.row(&format!("scar free {n}"), 2e-7, |accuracy| scar("free", *n, 1.0, accuracy));
     }
     for n in if few { &[32][..] } else { &[128, 256] } {
-        case.row(&format!("square periodic {n}"), 5e-5, |accuracy| scar("periodic", *n, 2.0, accuracy));
+        // At ten times the tolerance: a hundredth of the volume is what is asked for.
+        let coarse = |accuracy: Accuracy| Accuracy { wear: 10.0 * accuracy.wear, ..accuracy };
+        case.row(&format!("square periodic {n}"), 5e-6, |accuracy| scar("periodic", *n, 2.0, coarse(accuracy)));
     }
     for count in if few { &[2][..] } else { &[10, 100, 1000] } {
         case.timed(&format!("cycles {count}"), &cycles(*count));
