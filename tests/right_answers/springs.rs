@@ -3,11 +3,11 @@
 use crate::solved::near;
 use crate::{norm, run};
 
-/// One cell of stiffness 1e12 at an approach of 1e-4, p0 = 1e8.
+/// One cell of stiffness 1e12 at an approach of 1e-4, p0 = 1e8; the contact tolerance counts in lengths of the cell, 1.
 fn point(exponent: f64, rate: f64, time: f64, integrator: &str) -> f64 {
     let scene = format!(
         "[law]\nuse = \"archard\"\nconstants = {{ K = {rate:e}, H = 1.0, m = {exponent}, n = 1.0 }}\n\
-         [contact]\nmodel = \"foundation\"\ndimension = 2\nstiffness = 1e12\ntolerance = 1e-12\n\
+         [contact]\nmodel = \"foundation\"\ndimension = 2\nstiffness = 1e12\ntolerance = 1e-15\n\
          [grid]\nsize = [1.0]\ncells = [1]\n[surface]\nshape = \"flat-punch\"\nwidth = 1.0\n\
          [[step]]\nduration = {time}\napproach = 1e-4\nvelocity = 1.0\n[integrator]\n{integrator}\n"
     );

@@ -68,6 +68,7 @@ impl<'a> Neighbours<'a> {
 #[inline(always)]
 fn across<const REACH: usize>(weights: &[f64], at: impl Fn(usize) -> [f64; RUN]) -> [f64; RUN] {
     let mut sums = at(REACH).map(|value| weights[0] * value);
+    #[allow(clippy::needless_range_loop)] // reason: a count that the compiler knows leaves no loop
     for x in 1..=REACH {
         let both = plus(at(REACH - x), at(REACH + x));
         sums = plus(sums, both.map(|value| weights[x] * value));
