@@ -133,7 +133,7 @@ pub fn subjects() -> Vec<Subject> {
         )
         .declaring("Quantity::new", "const DEGREE"),
         Subject::new(rust, "plugin-api/src/sdk/point.rs", &[("impl<T: PointLaw>", END)], &[]),
-        Subject::new(archard, "plugins/archard/src/law.rs", &[("fn steady", "#[cfg(test)]")], archard_law)
+        Subject::new(archard, "plugins/archard/src/law.rs", &[("fn evaluate(", "#[cfg(test)]")], archard_law)
             .declaring("Quantity::new", "const DEGREE"),
     ];
     for file in ["linear", "steady", "kernel", "scale", "sweep"] {
