@@ -83,15 +83,20 @@ impl<'a> Workshop<'a> {
         let place = self.folder.path().join(worker.to_string());
         fs::write(place.join(&self.subject.file), &mutant.text).expect("a temporary folder");
         let Some(library) = self.build(&place) else { return Fate::DoesNotCompile };
-        let expected = root().join(&self.subject.law).join("expected.csv");
+        let mut arguments = vec![library.clone().into_os_string()];
+        match &self.subject.everything {
+            None => arguments.extend(["--expected".into(), root().join(&self.subject.law).join("expected.csv").into()]),
+            Some((_, name)) => {
+                arguments[0].push(format!("#{name}"));
+                arguments.extend(["--waive".into(), root().join("tests/mutate/waived.toml").into()]);
+            }
+        }
         // The short list finds most; the long one is for the rest.
         let passes = |more: &[&str]| {
             let output = Command::new(env!("CARGO_BIN_EXE_wearlaw"))
                 .current_dir(&place)
                 .arg("check")
-                .arg(&library)
-                .arg("--expected")
-                .arg(&expected)
+                .args(&arguments)
                 .args(["-q", "--threads", "1", "--timeout", "10"])
                 .args(more)
                 .stdin(Stdio::null())
@@ -111,7 +116,8 @@ impl<'a> Workshop<'a> {
         let built = if law.join("Cargo.toml").exists() {
             build_rust(place, &law, &library)
         } else {
-            build_native(place, &law, &library)
+            let source = self.subject.everything.as_ref().map(|(source, _)| root().join(source));
+            build_native(place, &source.unwrap_or_else(|| native_source(&law)), &library)
         };
         (built && library.exists()).then_some(library)
     }
@@ -122,12 +128,15 @@ fn succeeds(command: &mut Command) -> bool {
     output.status.success()
 }
 
+/// The source in the folder of a law.
+fn native_source(law: &Path) -> PathBuf {
+    let mut files = fs::read_dir(law).expect("a folder of a law").map(|entry| entry.expect("an entry").path());
+    let ends = |path: &PathBuf| path.extension().is_some_and(|e| ["c", "cpp", "f90"].iter().any(|s| e == *s));
+    files.find(ends).expect("a source")
+}
+
 /// As `wearlaw build` does, with the copied headers in place of the carried ones.
-fn build_native(place: &Path, law: &Path, library: &Path) -> bool {
-    let files = fs::read_dir(law).expect("a folder of a law").map(|entry| entry.expect("an entry").path());
-    let source =
-        files.into_iter().find(|path| path.extension().is_some_and(|e| ["c", "cpp", "f90"].iter().any(|s| e == *s)));
-    let source = source.expect("a source");
+fn build_native(place: &Path, source: &Path, library: &Path) -> bool {
     let variable = |name: &str, fallback: &str| std::env::var(name).unwrap_or_else(|_| fallback.to_owned());
     let include = place.join("include");
     let mut command = match source.extension().and_then(|ending| ending.to_str()) {

@@ -6,6 +6,7 @@ use std::os::fd::{AsRawFd, BorrowedFd, FromRawFd, OwnedFd, RawFd};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -16,7 +17,12 @@ pub(crate) struct Process {
     /// Becomes readable when the process ends, even if a process that it started holds its pipes open.
     ended: Option<OwnedFd>,
     status: Option<ExitStatus>,
+    /// The variable that it and all that it starts bear, as it stands in their environment.
+    mark: String,
 }
+
+/// Name of the variable that tells the family of one worker.
+const FAMILY: &str = "WEARLAW_FAMILY";
 
 /// What came first.
 pub(crate) enum Event {
@@ -38,6 +44,9 @@ impl Process {
         command.args(arguments).stdin(Stdio::null()).envs(variables.iter().copied());
         command.stdout(printed.try_clone_to_owned()?).stderr(printed.try_clone_to_owned()?);
         let parent = std::process::id();
+        static STARTED: AtomicU64 = AtomicU64::new(0);
+        let family = format!("{parent}-{}", STARTED.fetch_add(1, Ordering::Relaxed));
+        command.env(FAMILY, &family);
         // SAFETY: between fork and exec only async-signal-safe calls are made, and nothing is allocated.
         unsafe { command.pre_exec(move || before_exec(parent, &inherited)) };
         let child = spawn_from_lasting_thread(command)?;
@@ -47,7 +56,7 @@ impl Process {
             // SAFETY: the descriptor was just made and belongs to nobody else.
             unsafe { OwnedFd::from_raw_fd(ended as RawFd) }
         });
-        Ok(Self { child, ended, status: None })
+        Ok(Self { child, ended, status: None, mark: format!("{FAMILY}={family}") })
     }
 
     /// Waits until `pipe` can be read, the process ends or time is up.
@@ -136,6 +145,20 @@ impl Process {
         // What a crashed worker left behind is still in its process group.
         signal(-group, libc::SIGKILL);
         reap(group, &family);
+        self.end_strays();
+    }
+
+    /// Ends what had left the worker's group: with the worker gone it is a child of this process, and bears the mark.
+    fn end_strays(&self) {
+        for _ in 0..16 {
+            let mut strays = descendants(std::process::id() as libc::pid_t);
+            strays.retain(|process| bears(*process, &self.mark));
+            if strays.is_empty() {
+                break;
+            }
+            strays.iter().for_each(|process| signal(*process, libc::SIGKILL));
+            reap(0, &strays);
+        }
     }
 }
 
@@ -151,11 +174,18 @@ pub(crate) fn signal(process: libc::pid_t, number: i32) {
     unsafe { libc::kill(process, number) };
 }
 
+/// Whether a process was started with this variable, or by a process that was.
+fn bears(process: libc::pid_t, mark: &str) -> bool {
+    let environment = std::fs::read(format!("/proc/{process}/environ")).unwrap_or_default();
+    environment.split(|byte| *byte == 0).any(|variable| variable == mark.as_bytes())
+}
+
 /// Takes the ended processes of a worker's family off the list: they are this process's children once it is gone.
+/// `group` 0: no group besides them.
 fn reap(group: libc::pid_t, family: &[libc::pid_t]) {
     let patience = Instant::now() + Duration::from_millis(200);
     let mut left: Vec<libc::pid_t> = family.to_vec();
-    left.push(-group);
+    left.extend((group > 0).then_some(-group));
     while !left.is_empty() && Instant::now() < patience {
         left.retain(|process| {
             // SAFETY: a null pointer means that the status is not wanted.
