@@ -63,3 +63,13 @@ fn no_law_takes_an_isolated_run_down_or_leaves_anything_behind() {
     );
     assert!(count(3) > 0, "no law of the part fails");
 }
+
+#[test]
+fn what_a_law_starts_is_ended_with_its_worker() {
+    // Whether a worker ends by itself or is ended is a race: some tries of each.
+    for file in ["forks_a_child.c", "forks_a_session.c"] {
+        for _ in 0..4 {
+            assert_eq!(wrong(file, "1e7", "0.1"), Ok(0), "{file}");
+        }
+    }
+}
