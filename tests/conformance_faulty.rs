@@ -6,6 +6,8 @@
 
 #[path = "conformance_faulty/diagonal.rs"]
 mod diagonal;
+#[path = "conformance_faulty/every_run.rs"]
+mod every_run;
 #[path = "conformance_faulty/fixtures.rs"]
 mod fixtures;
 #[path = "conformance_faulty/hardening.rs"]

@@ -3,10 +3,14 @@
 //! A mutant is the source of a law, or of the helper under it, with one small mistake: a sign, an exponent, an index, a
 //! dropped term, swapped arguments, a state that is not written, a wrong stride. It is built as an author would build it.
 //!
-//!     cargo test --test mutate -- --nocapture             # a seeded part of each file, some minutes
-//!     WEARLAW_MUTANTS=all cargo test --release --test mutate -- --nocapture
+//!     cargo test --test mutate                                                # two of each law that builds fast
+//!     WEARLAW_MUTANTS=12 cargo test --release --test mutate -- --nocapture     # so many of each file, some minutes
+//!     WEARLAW_MUTANTS=all cargo test --release --test mutate -- --nocapture    # every one, hours
 //!
-//! At least 95 % have to be found. What is not found has to be in `tests/mutate/survivors.csv`, with the reason.
+//! `WEARLAW_MUTATE=NAME` takes the files with that in their name, `WEARLAW_MUTATE_SEED=N` other ones of each file.
+//!
+//! At least 95 % have to be found. What is not found has to be in `tests/mutate/survivors.csv`, with the reason. Where
+//! that is `equivalent`, the mutant answers every question as the law does, and counts neither as found nor as missed.
 #![cfg(target_os = "linux")]
 
 #[path = "mutate/make.rs"]
@@ -25,39 +29,57 @@ use make::{Fate, Workshop};
 use operators::{Mutant, mutants};
 use subjects::{Subject, subjects};
 
-/// Mutants of one file unless all are wanted.
-const PART: usize = 12;
+/// Mutants of one law in the short part.
+const SHORT: usize = 2;
 /// Part of the mutants that has to be found.
 const BAR: f64 = 0.95;
 
-/// A mutant that was not found although it can be built.
-type Known = BTreeMap<(String, String), String>;
+/// Why a mutant is not found, by file and change.
+type Known = BTreeMap<(String, String), Reason>;
 
-/// The survivors that are known, by file and change, with the reason.
+/// A row of the list of survivors.
+#[derive(Clone, Debug)]
+struct Reason {
+    /// Nobody could tell the mutant from the law; otherwise the tester misses it.
+    equivalent: bool,
+    text: String,
+}
+
+/// The survivors that are known, with the reason.
 fn known() -> Known {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/mutate/survivors.csv");
     let mut table = csv::Reader::from_path(path).expect("the list of survivors");
-    let rows = table.records().map(|row| row.expect("file, change, reason"));
-    rows.map(|row| ((row[0].to_owned(), row[1].to_owned()), row[2].to_owned())).collect()
+    let rows = table.records().map(|row| row.expect("file, change, kind, reason"));
+    rows.map(|row| {
+        assert!(["equivalent", "missed"].contains(&&row[2]), "{row:?}");
+        let reason = Reason { equivalent: &row[2] == "equivalent", text: row[3].to_owned() };
+        ((row[0].to_owned(), row[1].to_owned()), reason)
+    })
+    .collect()
+}
+
+fn variable(name: &str) -> Option<String> {
+    std::env::var(name).ok()
 }
 
 /// A seeded part of a file's mutants, spread over it; or all.
 fn chosen(subject: &Subject, all: Vec<Mutant>) -> Vec<Mutant> {
-    let most = match std::env::var("WEARLAW_MUTANTS").as_deref() {
-        Ok("all") => usize::MAX,
-        Ok(number) => number.parse().expect("WEARLAW_MUTANTS is `all` or a number"),
-        Err(_) => PART,
+    let most = match variable("WEARLAW_MUTANTS").as_deref() {
+        Some("all") => usize::MAX,
+        Some(number) => number.parse().expect("WEARLAW_MUTANTS is `all` or a number"),
+        None if subject.is_quickly_built() => SHORT,
+        None => 0,
     };
-    let only = std::env::var("WEARLAW_MUTATE").unwrap_or_default();
-    if !subject.name().contains(&only) {
+    if !subject.name().contains(&variable("WEARLAW_MUTATE").unwrap_or_default()) {
         return Vec::new();
     }
     if all.len() <= most {
         return all;
     }
-    // One of every stretch, by the last bits of where it stands.
+    let seed: usize = variable("WEARLAW_MUTATE_SEED").map_or(1, |text| text.parse().expect("a number"));
+    // One of every stretch.
     let count = all.len();
-    let mut picked: Vec<usize> = (0..most).map(|k| (k * count + (k * 7919) % count) / most).collect();
+    let mut picked: Vec<usize> = (0..most).map(|k| (k * count + (k * 7919 * seed) % count) / most).collect();
     picked.dedup();
     picked.into_iter().map(|at| all[at].clone()).collect()
 }
@@ -65,12 +87,17 @@ fn chosen(subject: &Subject, all: Vec<Mutant>) -> Vec<Mutant> {
 #[test]
 fn mutants_of_the_shipped_laws_are_found() {
     let known = known();
-    let (mut found, mut made, mut unknown) = (0, 0, Vec::new());
-    println!("{:46} {:>7} {:>6} {:>6} {:>9}", "file", "mutants", "built", "found", "excused");
+    let (mut found, mut made, mut equal, mut unknown) = (0, 0, 0, Vec::new());
+    println!("{:46} {:>7} {:>6} {:>6} {:>9}", "file", "mutants", "built", "found", "equal");
     for subject in subjects() {
         let workshop = Workshop::new(&subject);
-        workshop.assert_sound();
         let mutants = chosen(&subject, mutants(&subject));
+        if mutants.is_empty() {
+            continue;
+        }
+        if variable("WEARLAW_MUTANTS").is_some() {
+            workshop.assert_sound();
+        }
         let fates = workshop.try_all(&mutants);
         let (mut built, mut here, mut excused) = (0, 0, 0);
         for (mutant, fate) in mutants.iter().zip(&fates) {
@@ -81,8 +108,11 @@ fn mutants_of_the_shipped_laws_are_found() {
                     let key = (subject.name(), mutant.change());
                     match known.get(&key) {
                         Some(reason) => {
-                            excused += 1;
-                            println!("    survives: {}: {reason}", mutant.change());
+                            println!("    survives: {}: {}", mutant.change(), reason.text);
+                            if reason.equivalent {
+                                excused += 1;
+                                continue;
+                            }
                         }
                         None => {
                             println!("  ! survives: {} in line {}", mutant.change(), mutant.line);
@@ -94,11 +124,12 @@ fn mutants_of_the_shipped_laws_are_found() {
             built += 1;
         }
         println!("{:46} {:>7} {built:>6} {here:>6} {excused:>9}", subject.name(), mutants.len());
-        (found, made) = (found + here, made + built);
+        (found, made, equal) = (found + here, made + built, equal + excused);
     }
     let part = f64::from(found) / f64::from(made.max(1));
-    println!("{found} of {made} mutants are found ({:.1} %)", 100.0 * part);
+    println!("{found} of {made} mutants are found ({:.1} %), and {equal} are equivalent", 100.0 * part);
     assert!(made > 0, "no mutant was built");
-    assert!(part >= BAR, "{found} of {made} found, expected {BAR} of them");
+    // A few mutants are no sample: there only the reasons count.
+    assert!(part >= BAR || variable("WEARLAW_MUTANTS").is_none(), "{found} of {made} found, expected {BAR} of them");
     assert!(unknown.is_empty(), "survivors without a reason in survivors.csv:\n{}", unknown.join("\n"));
 }

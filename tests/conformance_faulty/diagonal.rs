@@ -48,12 +48,12 @@ fn failed(outcomes: &Outcomes) -> Vec<String> {
     outcomes.iter().filter(|(_, outcome)| found(outcome)).map(|(check, _)| check.clone()).collect()
 }
 
-fn all_wanted() -> bool {
+pub fn all_wanted() -> bool {
     std::env::var("WEARLAW_FAULTY").as_deref() == Ok("all")
 }
 
 /// A part of the laws by a seed, which may be given; all of them if asked for.
-fn part() -> Vec<Faulty> {
+pub fn part() -> Vec<Faulty> {
     let mut laws = faulty();
     if all_wanted() {
         return laws;

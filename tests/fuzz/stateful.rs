@@ -13,6 +13,7 @@ use wearlaw::law::{
 };
 
 use super::mutator::Random;
+use super::watch::Watch;
 
 /// Rounds of the short part, and operations in a round.
 const ROUNDS: usize = 6;
@@ -168,13 +169,13 @@ fn call(law: &dyn Evaluator, fresh: &LawInstance, random: &mut Random) {
 }
 
 /// One round: libraries are opened and let go, instances live across that, threads call them at the same time.
-fn round(library: &Path, random: &mut Random) {
+fn round(library: &Path, random: &mut Random, watch: &Watch) {
     let open = || Plugin::open(library, &LoadOptions::default()).expect("the law is well formed");
     let mut opened =
         [Opened::Here(Box::new(archard())), Opened::Here(Box::new(open())), Opened::There(library.to_owned())];
     let mut laws: Vec<(Box<dyn Evaluator>, bool)> = Vec::new();
     for _ in 0..OPERATIONS {
-        match random.below(8) {
+        watch.over(|| match random.below(8) {
             0 | 1 if laws.len() < 6 => match &opened[random.below(opened.len())] {
                 Opened::Here(plugin) => {
                     let law = plugin.laws()[0].create(None).expect("it has no objections");
@@ -211,19 +212,19 @@ fn round(library: &Path, random: &mut Random) {
                 call(law.as_ref(), &fresh, random);
             }
             _ => {}
-        }
+        });
     }
 }
 
 /// Rounds until time is up, or a few; answers how many.
-pub fn fuzz(seed: u64, time: Option<Duration>) -> usize {
+pub fn fuzz(seed: u64, time: Option<Duration>, watch: &Watch) -> usize {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let library = library(folder.path());
     let mut random = Random::new(seed);
     let end = time.map(|time| Instant::now() + time);
     let mut rounds = 0;
     while end.map_or(rounds < ROUNDS, |end| Instant::now() < end) {
-        round(&library, &mut random);
+        round(&library, &mut random, watch);
         rounds += 1;
     }
     rounds

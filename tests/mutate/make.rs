@@ -1,5 +1,6 @@
 //! From a mutant to its fate: a copy of the law is built with it and checked.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -82,39 +83,52 @@ impl<'a> Workshop<'a> {
     fn fate(&self, mutant: &Mutant, worker: usize) -> Fate {
         let place = self.folder.path().join(worker.to_string());
         fs::write(place.join(&self.subject.file), &mutant.text).expect("a temporary folder");
-        let Some(library) = self.build(&place) else { return Fate::DoesNotCompile };
-        let expected = root().join(&self.subject.law).join("expected.csv");
-        // The short list finds most; the long one is for the rest.
-        let passes = |more: &[&str]| {
-            let output = Command::new(env!("CARGO_BIN_EXE_wearlaw"))
-                .current_dir(&place)
-                .arg("check")
-                .arg(&library)
-                .arg("--expected")
-                .arg(&expected)
-                .args(["-q", "--threads", "1", "--timeout", "10"])
-                .args(more)
-                .stdin(Stdio::null())
-                .output()
-                .expect("the program starts");
-            let code = output.status.code().expect("no signal ends the tester");
-            assert!([0, 1, 2, 3].contains(&code), "{}: {code} {output:?}", mutant.change());
-            code == 0
-        };
-        if passes(&["--quick"]) && passes(&[]) { Fate::Survived } else { Fate::Found }
+        let (checked, waived) = (root().join(&self.subject.law), root().join("tests/mutate/waived.toml"));
+        let Some(library) = self.build(&place, None) else { return Fate::DoesNotCompile };
+        let arguments = [library.into_os_string(), "--expected".into(), checked.join("expected.csv").into()];
+        if !passes(mutant, &place, &arguments) {
+            return Fate::Found;
+        }
+        // What the shipped law does not use of a helper, the law that uses everything may.
+        let Some((source, name)) = &self.subject.everything else { return Fate::Survived };
+        let Some(library) = self.build(&place, Some(&root().join(source))) else { return Fate::DoesNotCompile };
+        let mut library = library.into_os_string();
+        library.push(format!("#{name}"));
+        let arguments = [library, "--waive".into(), waived.into()];
+        if passes(mutant, &place, &arguments) { Fate::Survived } else { Fate::Found }
     }
 
-    fn build(&self, place: &Path) -> Option<PathBuf> {
+    /// Builds the law of the subject, or another one, with the mutant.
+    fn build(&self, place: &Path, other: Option<&Path>) -> Option<PathBuf> {
         let law = place.join(&self.subject.law);
         let library = place.join("law.so");
         let _ = fs::remove_file(&library);
-        let built = if law.join("Cargo.toml").exists() {
-            build_rust(place, &law, &library)
-        } else {
-            build_native(place, &law, &library)
+        let built = match other {
+            None if law.join("Cargo.toml").exists() => build_rust(place, &law, &library),
+            None => build_native(place, &native_source(&law), &library),
+            Some(source) => build_native(place, source, &library),
         };
         (built && library.exists()).then_some(library)
     }
+}
+
+/// Whether the tester finds nothing in a law: the short list finds most, the long one is for the rest.
+fn passes(mutant: &Mutant, place: &Path, arguments: &[OsString]) -> bool {
+    let passes = |more: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_wearlaw"))
+            .current_dir(place)
+            .arg("check")
+            .args(arguments)
+            .args(["-q", "--threads", "1", "--timeout", "10"])
+            .args(more)
+            .stdin(Stdio::null())
+            .output()
+            .expect("the program starts");
+        let code = output.status.code().expect("no signal ends the tester");
+        assert!([0, 1, 2, 3].contains(&code), "{}: {code} {output:?}", mutant.change());
+        code == 0
+    };
+    passes(&["--quick"]) && passes(&[])
 }
 
 fn succeeds(command: &mut Command) -> bool {
@@ -122,12 +136,15 @@ fn succeeds(command: &mut Command) -> bool {
     output.status.success()
 }
 
+/// The source in the folder of a law.
+fn native_source(law: &Path) -> PathBuf {
+    let mut files = fs::read_dir(law).expect("a folder of a law").map(|entry| entry.expect("an entry").path());
+    let ends = |path: &PathBuf| path.extension().is_some_and(|e| ["c", "cpp", "f90"].iter().any(|s| e == *s));
+    files.find(ends).expect("a source")
+}
+
 /// As `wearlaw build` does, with the copied headers in place of the carried ones.
-fn build_native(place: &Path, law: &Path, library: &Path) -> bool {
-    let files = fs::read_dir(law).expect("a folder of a law").map(|entry| entry.expect("an entry").path());
-    let source =
-        files.into_iter().find(|path| path.extension().is_some_and(|e| ["c", "cpp", "f90"].iter().any(|s| e == *s)));
-    let source = source.expect("a source");
+fn build_native(place: &Path, source: &Path, library: &Path) -> bool {
     let variable = |name: &str, fallback: &str| std::env::var(name).unwrap_or_else(|_| fallback.to_owned());
     let include = place.join("include");
     let mut command = match source.extension().and_then(|ending| ending.to_str()) {

@@ -203,7 +203,7 @@ fn two_arguments(all: &[Token<'_>], open: usize) -> Option<((usize, usize), (usi
             ")" | "]" | "}" => depth -= 1,
             _ => {}
         }
-        if depth == 1 && next.text == "," || depth == 1 && next.text == ")" {
+        if depth == 1 && [",", ")"].contains(&next.text) {
             parts.push((start, token.end()));
             if parts.len() == 2 {
                 let ordered = parts[0].0 < parts[0].1 && parts[0].1 <= parts[1].0 && parts[1].0 < parts[1].1;

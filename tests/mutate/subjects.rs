@@ -11,6 +11,8 @@ pub struct Subject {
     pub file: PathBuf,
     /// Folder of the law that is checked with it, from the root.
     pub law: PathBuf,
+    /// A law for tests that uses every part of a helper, in place of a shipped one: its source and its name.
+    pub everything: Option<(PathBuf, &'static str)>,
     /// Its text.
     pub text: String,
     /// Bytes of it that are mutated.
@@ -34,6 +36,11 @@ impl Subject {
         self.file.extension().is_some_and(|ending| ending == "f90" || ending == "inc")
     }
 
+    /// Whether it is a law in a language whose compiler needs no second for it.
+    pub fn is_quickly_built(&self) -> bool {
+        self.everything.is_none() && self.file.extension().is_some_and(|ending| ending != "rs" && ending != "h")
+    }
+
     /// A subject of a text that is mutated as a whole.
     #[cfg(test)]
     pub fn of_text(file: &str, text: &str, names: &[&'static [&'static str]]) -> Self {
@@ -41,6 +48,7 @@ impl Subject {
         Self {
             file: file.into(),
             law: PathBuf::new(),
+            everything: None,
             text: text.to_owned(),
             regions: vec![whole],
             declarations: Vec::new(),
@@ -56,6 +64,7 @@ impl Subject {
         let mut subject = Self {
             file: file.into(),
             law: law.into(),
+            everything: None,
             text,
             regions: Vec::new(),
             declarations,
@@ -73,6 +82,12 @@ impl Subject {
 
     fn declaring(mut self, from: &str, to: &str) -> Self {
         self.declarations.push(self.between(from, to));
+        self
+    }
+
+    /// With the law of `tests/data/languages` that uses everything.
+    fn by_everything(mut self, file: &str, name: &'static str) -> Self {
+        self.everything = Some((Path::new("tests/data/languages").join(file), name));
         self
     }
 
@@ -116,7 +131,9 @@ pub fn subjects() -> Vec<Subject> {
             &[&["K", "H", "p0"], &["pressure", "slip"], &["WL_NUMBER", "WL_PASCAL"]],
         )
         .declaring("C(K,", "#define LAW_WRITES"),
-        Subject::new(c, "include/wearlaw_point_loop.h", &[("WL_GET", "/* ---- The functions")], &[]).lines_with("step"),
+        Subject::new(c, "include/wearlaw_point_loop.h", &[("WL_GET", "/* ---- The functions")], &[])
+            .lines_with("step")
+            .by_everything("everything.c", "everything-c"),
         Subject::new(
             cpp,
             "plugins/example-cpp/running_in.cpp",
@@ -124,7 +141,9 @@ pub fn subjects() -> Vec<Subject> {
             &[&["K_0", "K_inf", "s_0", "H"], &["slip", "fresh"], &["number", "pascal", "metre"]],
         )
         .declaring("T K_0", "static constexpr"),
-        Subject::new(cpp, "include/wearlaw_loop.hpp", &[("namespace", END)], &[]).lines_with("step"),
+        Subject::new(cpp, "include/wearlaw_loop.hpp", &[("namespace", END)], &[])
+            .lines_with("step")
+            .by_everything("everything.cpp", "everything-cpp"),
         Subject::new(
             rust,
             "plugins/example-rust/src/lib.rs",
@@ -132,8 +151,13 @@ pub fn subjects() -> Vec<Subject> {
             softening,
         )
         .declaring("Quantity::new", "const DEGREE"),
-        Subject::new(rust, "plugin-api/src/sdk/point.rs", &[("impl<T: PointLaw>", END)], &[]),
-        Subject::new(archard, "plugins/archard/src/law.rs", &[("fn steady", "#[cfg(test)]")], archard_law)
+        Subject::new(
+            rust,
+            "plugin-api/src/sdk/point.rs",
+            &[("impl<T: PointLaw>", "/// A point at which nothing")],
+            &[],
+        ),
+        Subject::new(archard, "plugins/archard/src/law.rs", &[("fn evaluate(", "#[cfg(test)]")], archard_law)
             .declaring("Quantity::new", "const DEGREE"),
     ];
     for file in ["linear", "steady", "kernel", "scale", "sweep"] {
@@ -148,7 +172,9 @@ pub fn subjects() -> Vec<Subject> {
                 .declaring("wl_declared(WL_KIND_CONSTANT", "contains"),
         );
         all.push(
-            Subject::new(fortran, "include/wearlaw_point_loop.inc", &[("subroutine", END)], &[]).lines_with("step"),
+            Subject::new(fortran, "include/wearlaw_point_loop.inc", &[("subroutine", END)], &[])
+                .lines_with("step")
+                .by_everything("everything.f90", "everything-fortran"),
         );
     } else {
         println!("NOT RUN: mutate fortran: no compiler");

@@ -15,6 +15,7 @@ use super::super::handle::{PIECE, fits};
 use super::super::loader::LoadError;
 use super::process::{Event, Process};
 use super::protocol::{self, Channels, Ended, FIXED_WORDS, Header, Open, Opened, Place};
+use super::search::Asked;
 use super::shared::Shared;
 use super::{IsolateError, IsolateOptions, Source, WORKER_COMMAND};
 
@@ -99,8 +100,8 @@ impl IsolatedLaw {
         EvaluateError::Channel { law: self.descriptor.name.clone(), call, reason: reason.to_string() }
     }
 
-    fn lost(&self, call: u64, batch: &Batch<'_>, how: String, piece: Range<usize>) -> EvaluateError {
-        let at = self.search(batch, piece.clone());
+    fn lost(&self, call: u64, batch: &Batch<'_>, how: String, piece: Range<usize>, asked: Asked) -> EvaluateError {
+        let at = self.search(batch, piece.clone(), asked);
         EvaluateError::WorkerLost {
             law: self.descriptor.name.clone(),
             how,
@@ -131,6 +132,7 @@ impl Evaluator for IsolatedLaw {
             None => self.fresh().map_err(|error| self.channel_error(call, error))?,
         };
         let mut worst = Evaluation::Good;
+        let asked = Asked::of(outputs);
         let mut rest = outputs.reborrow();
         let mut start = 0;
         while start < batch.points() {
@@ -142,7 +144,8 @@ impl Evaluator for IsolatedLaw {
                 Ok(ended) => ended,
                 Err(Trouble::Lost { how, piece }) => {
                     drop(worker);
-                    return Err(self.lost(call, batch, how, part.start + piece.start..part.start + piece.end));
+                    let piece = part.start + piece.start..part.start + piece.end;
+                    return Err(self.lost(call, batch, how, piece, asked));
                 }
                 Err(Trouble::Channel(error)) => return Err(self.channel_error(call, error)),
             };

@@ -7,6 +7,7 @@ use std::os::fd::{AsRawFd, BorrowedFd, FromRawFd, OwnedFd, RawFd};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -17,7 +18,12 @@ pub(crate) struct Process {
     /// Becomes readable when the process ends, even if a process that it started holds its pipes open.
     ended: Option<OwnedFd>,
     status: Option<ExitStatus>,
+    /// The variable that it and all that it starts bear, as it stands in their environment.
+    mark: String,
 }
+
+/// Name of the variable that tells the family of one worker.
+const FAMILY: &str = "WEARLAW_FAMILY";
 
 /// What came first.
 pub(crate) enum Event {
@@ -39,6 +45,9 @@ impl Process {
         command.args(arguments).stdin(Stdio::null()).envs(variables.iter().copied());
         command.stdout(printed.try_clone_to_owned()?).stderr(printed.try_clone_to_owned()?);
         let parent = std::process::id();
+        static STARTED: AtomicU64 = AtomicU64::new(0);
+        let family = format!("{parent}-{}", STARTED.fetch_add(1, Ordering::Relaxed));
+        command.env(FAMILY, &family);
         // SAFETY: between fork and exec only async-signal-safe calls are made, and nothing is allocated.
         unsafe { command.pre_exec(move || before_exec(parent, &inherited)) };
         let child = spawn_from_lasting_thread(command)?;
@@ -49,7 +58,7 @@ impl Process {
             // SAFETY: the descriptor was just made and belongs to nobody else.
             unsafe { OwnedFd::from_raw_fd(ended as RawFd) }
         });
-        Ok(Self { child, ended, status: None })
+        Ok(Self { child, ended, status: None, mark: format!("{FAMILY}={family}") })
     }
 
     /// Waits until `pipe` can be read, the process ends or time is up.
@@ -139,7 +148,21 @@ impl Process {
         signal(-group, libc::SIGKILL);
         family.push(-group);
         reap(family);
+        self.end_strays();
         started().remove(&self.id());
+    }
+
+    /// Ends what had left the worker's group: with the worker gone it is a child of this process, and bears the mark.
+    fn end_strays(&self) {
+        for _ in 0..16 {
+            let mut strays = descendants(std::process::id() as libc::pid_t);
+            strays.retain(|process| bears(*process, &self.mark));
+            if strays.is_empty() {
+                break;
+            }
+            strays.iter().for_each(|process| signal(*process, libc::SIGKILL));
+            reap(strays);
+        }
     }
 }
 
@@ -159,6 +182,12 @@ pub(crate) fn signal(process: libc::pid_t, number: i32) {
     // SAFETY: the call takes two integers; the process is a child that has not been waited for, one below it, or the
     // group that this module made for it.
     unsafe { libc::kill(process, number) };
+}
+
+/// Whether a process was started with this variable, or by a process that was.
+fn bears(process: libc::pid_t, mark: &str) -> bool {
+    let environment = std::fs::read(format!("/proc/{process}/environ")).unwrap_or_default();
+    environment.split(|byte| *byte == 0).any(|variable| variable == mark.as_bytes())
 }
 
 /// How long processes that were killed may take to be gone.

@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 
 use super::super::batch::{Batch, Outputs};
 use super::super::evaluation::{Evaluator, PointInputs};
-use super::super::fields::OutputItem;
 use super::parent::{IsolatedLaw, Trouble};
 
 /// A single point of a law that answers at all takes microseconds; a second is a hang.
@@ -13,9 +12,29 @@ const POINT_DEADLINE: Duration = Duration::from_secs(1);
 /// Longer than the points of any piece take; a law that is slower than that is not searched further.
 const SEARCH: Duration = Duration::from_secs(5);
 
+/// The outputs that a call asked for: what is not asked for may be what a law dies of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    direction: bool,
+    state: bool,
+    status: bool,
+    d_pressure: bool,
+}
+
+impl Asked {
+    pub(super) fn of(outputs: &Outputs<'_>) -> Self {
+        Self {
+            direction: outputs.direction.is_some(),
+            state: outputs.state.is_some(),
+            status: outputs.status.is_some(),
+            d_pressure: outputs.d_pressure.is_some(),
+        }
+    }
+}
+
 impl IsolatedLaw {
-    /// The first point of `piece` at which a fresh worker is lost too, and its inputs.
-    pub(super) fn search(&self, batch: &Batch<'_>, piece: Range<usize>) -> Option<PointInputs> {
+    /// The first point of `piece` at which a fresh worker is lost too, asked for the same outputs, and its inputs.
+    pub(super) fn search(&self, batch: &Batch<'_>, piece: Range<usize>, asked: Asked) -> Option<PointInputs> {
         let law = self.descriptor();
         let mut worker = self.fresh().ok()?;
         let end = Instant::now() + SEARCH.min(self.deadline());
@@ -25,11 +44,10 @@ impl IsolatedLaw {
             let single = batch.range(point..point + 1);
             let mut outputs = Outputs {
                 increment: &mut increment,
-                // Everything that the law can write: what the caller had asked for may be what it died of.
-                direction: law.writes(OutputItem::Direction).then_some(&mut direction[..]),
-                state: (!law.state.is_empty()).then_some(&mut state[..]),
-                status: law.writes(OutputItem::Status).then_some(&mut status[..]),
-                d_pressure: law.writes(OutputItem::DPressure).then_some(&mut d_pressure[..]),
+                direction: asked.direction.then_some(&mut direction[..]),
+                state: asked.state.then_some(&mut state[..]),
+                status: asked.status.then_some(&mut status[..]),
+                d_pressure: asked.d_pressure.then_some(&mut d_pressure[..]),
             };
             match worker.call(&single, &mut outputs, POINT_DEADLINE.min(self.deadline())) {
                 Ok(_) if Instant::now() < end => {}

@@ -1,0 +1,9 @@
+//! Coverage-guided search with the target `history` of `tests/fuzz/targets.rs`.
+#![no_main]
+
+#[path = "../../targets.rs"]
+mod targets;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    targets::history(bytes);
+});

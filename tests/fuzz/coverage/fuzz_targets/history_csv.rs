@@ -1,7 +1,0 @@
-//! Coverage-guided search with the target `history_csv` of `tests/fuzz/targets.rs`.
-#![no_main]
-
-#[path = "../../targets.rs"]
-mod targets;
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| targets::history_csv(bytes));
