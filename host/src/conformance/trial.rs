@@ -137,7 +137,8 @@ impl<'r> Trials<'r> {
         }
         let again = Task { narrow: Some(crumb.call), budget: PATIENT, ..task.clone() };
         let hangs = matches!(attempted.ended, Ended::TimedOut);
-        let time = if hangs { self.options.timeout.min(NARROWING) } else { self.options.timeout };
+        // Point by point is slow, and a crash ends it anyway.
+        let time = if hangs { self.options.timeout.min(NARROWING) } else { self.options.timeout * 3 };
         let again = self.attempt(&again, time)?;
         // One that was only slow was at many points one after the other.
         let stuck = !matches!(again.ended, Ended::TimedOut) || again.crumb.stayed > time / 4;
