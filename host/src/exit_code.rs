@@ -186,7 +186,9 @@ fn of_solving(error: &SolveError) -> ExitCode {
             )
             | AdvanceError::SmallestStep { .. } => ExitCode::LawFailed,
             AdvanceError::Evaluate(PointError::Contact(_) | PointError::Newton { .. })
-            | AdvanceError::Tolerance { .. } => ExitCode::NumbersFailed,
+            | AdvanceError::Tolerance { .. }
+            | AdvanceError::Stalled { .. }
+            | AdvanceError::ManySubsteps { .. } => ExitCode::NumbersFailed,
         },
         SolveError::Surface(error) => of_surface(error),
         SolveError::BeyondLimit { .. } | SolveError::DomainFull { .. } => ExitCode::NumbersFailed,

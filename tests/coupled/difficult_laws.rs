@@ -163,6 +163,53 @@ fn memories_and_wishes_are_kept() {
     }
 }
 
+/// Wears the same in every call, however short the substep.
+pub struct PerCall;
+
+impl MemoryLaw for PerCall {
+    fn descriptor() -> LawDescriptor {
+        LawDescriptor { name: "per-call".to_owned(), ..Work::descriptor_with(&[Field::Pressure]) }
+    }
+    fn create(_: Option<&str>) -> Result<Self, String> {
+        Ok(Self)
+    }
+    fn evaluate(&self, inputs: &MemoryInputs<'_>, outputs: &mut MemoryOutputs<'_>) -> i32 {
+        for i in 0..inputs.points() {
+            outputs.increment[i] = inputs.constant(0, i).expect("one constant");
+        }
+        WL_OK
+    }
+}
+
+#[test]
+fn a_wear_that_depends_on_the_substep_ends_the_run() {
+    let text = |rest: &str| {
+        let case = solved_case("constants = [1e-9]", "load = 1e4", 0.2, &format!("[integrator]\n{rest}\n"));
+        let record = case.end(&memory::<PerCall>(None)).record;
+        let End::Failed(error) = &record.end else { panic!("{:?}", record.end) };
+        // What was known before the stretch is kept.
+        assert_eq!((record.wear[0], record.pressure[0]), (0.0, 1e7));
+        error.to_string()
+    };
+    let stalled = text("tolerance = 1e-4");
+    assert!(stalled.contains("depends on the length of the substep") && stalled.contains("100000"), "{stalled}");
+    let few = text("tolerance = 1e-4\nmost_substeps = 30");
+    assert!(few.contains("with 24 substeps") && few.contains("within 30 (`integrator.most_substeps`)"), "{few}");
+}
+
+#[test]
+fn wishes_for_short_substeps_are_counted() {
+    let rest = "[integrator]\nsubsteps = 2\nmost_substeps = 20\n";
+    let case = solved_case("constants = [1e-13, 0.003]", "load = 1e4", 0.2, rest);
+    for record in [case.end(&memory::<Impatient>(None)).record, case.end(&memory::<ImpatientRate>(None)).record] {
+        let End::Failed(error) = &record.end else { panic!("{:?}", record.end) };
+        assert!(error.to_string().contains("expected at most 20 (`integrator.most_substeps`)"), "{error}");
+        // The twenty that were taken stand.
+        assert_eq!(record.history.rows.len(), 21);
+        near(record.wear[0], 1e-6 * record.history.rows[20].time, 1e-9);
+    }
+}
+
 #[test]
 fn open_points_reach_a_law_that_asks_for_them() {
     let case = Case::text(

@@ -140,6 +140,27 @@ fn a_law_that_wants_shorter_substeps_gets_them() {
     }
 }
 
+/// Substeps between two events have a largest number, whatever asks for more.
+#[test]
+fn no_more_substeps_are_taken_than_are_allowed() {
+    let rest = |most: u64, accuracy: &str| {
+        format!(
+            "[[step]]\nduration = 1\npressure = 1e6\nvelocity = 0.1\n\
+             [integrator]\n{accuracy}\nmost_substeps = {most}\n"
+        )
+    };
+    let laws = [memory::<Impatient>(None), memory::<ImpatientRate>(None)];
+    for law in &laws {
+        for accuracy in ["substeps = 1", "substeps = 2"] {
+            let case = |most| Case::steps("constants = [1e-12, 0.003]", &rest(most, accuracy));
+            near(case(2000).solve(law).record.wear[0], 1e-7, 1e-12);
+            let End::Failed(error) = case(20).end(law).record.end else { panic!("{accuracy}") };
+            let text = error.to_string();
+            assert!(text.contains("expected at most 20 (`integrator.most_substeps`)"), "{text}");
+        }
+    }
+}
+
 /// A failed run keeps what it had done.
 #[test]
 fn a_wish_that_cannot_be_met_keeps_what_was_done() {

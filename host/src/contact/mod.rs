@@ -18,4 +18,4 @@ pub use cells::Cells;
 pub use error::ContactError;
 pub use npy::ArrayFault;
 pub use problem::{ContactModel, Control, Diagonal, Problem, Solution};
-pub use traction::nodal_traction;
+pub use traction::{corners_and_back, nodal_traction};

@@ -8,6 +8,12 @@ use super::Cells;
 /// Its symbol is cos^2(q h / 2) in every direction, not negative: implicit wear from it damps every wave, while a one-way
 /// average to the corners feeds the chequerboard.
 pub fn nodal_traction(cells: &Cells, periodic: bool, pressure: &[f64], out: &mut [f64]) {
+    corners_and_back(cells, periodic, pressure, out);
+    out.iter_mut().zip(pressure).filter(|(_, pressure)| **pressure == 0.0).for_each(|(out, _)| *out = 0.0);
+}
+
+/// M p `[cells]` with the cells next to those that carry pressure: a traction that has no jump where a cell closes.
+pub fn corners_and_back(cells: &Cells, periodic: bool, pressure: &[f64], out: &mut [f64]) {
     let [nx, ny] = cells.counts;
     let near = |at: usize, count: usize, by: isize| -> Option<usize> {
         let to = at as isize + by;
@@ -23,11 +29,6 @@ pub fn nodal_traction(cells: &Cells, periodic: bool, pressure: &[f64], out: &mut
     let along_y = if cells.dimension == 2 { &[(0, 1.0)][..] } else { &[(-1, 0.25), (0, 0.5), (1, 0.25)][..] };
     for j in 0..ny {
         for i in 0..nx {
-            let cell = j * nx + i;
-            if pressure[cell] == 0.0 {
-                out[cell] = 0.0;
-                continue;
-            }
             let mut sum = 0.0;
             for (dj, weight_y) in along_y {
                 let Some(row) = near(j, ny, *dj) else { continue };
@@ -37,7 +38,7 @@ pub fn nodal_traction(cells: &Cells, periodic: bool, pressure: &[f64], out: &mut
                     }
                 }
             }
-            out[cell] = sum;
+            out[j * nx + i] = sum;
         }
     }
 }
@@ -55,6 +56,16 @@ mod tests {
         let chequered: Vec<f64> = (0..24).map(|k| if (k % 4 + k / 4) % 2 == 0 { 1.0 } else { -1.0 }).collect();
         nodal_traction(&cells, true, &chequered, &mut out);
         assert_eq!(out, [0.0; 24]);
+    }
+
+    #[test]
+    fn it_reaches_the_neighbours_of_loaded_cells_where_that_is_asked_for() {
+        let cells = Cells { dimension: 2, counts: [5, 1], spacing: [1.0, 1.0] };
+        let mut out = vec![9.0; 5];
+        corners_and_back(&cells, false, &[0.0, 4.0, 0.0, 0.0, 8.0], &mut out);
+        assert_eq!(out, [1.0, 2.0, 1.0, 2.0, 4.0]);
+        nodal_traction(&cells, false, &[0.0, 4.0, 0.0, 0.0, 8.0], &mut out);
+        assert_eq!(out, [0.0, 2.0, 0.0, 0.0, 4.0]);
     }
 
     #[test]

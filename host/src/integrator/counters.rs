@@ -1,5 +1,7 @@
 //! What advancing has cost, and its estimated error.
 
+use super::AdvanceError;
+
 /// Work and error of one advance over one chunk of points; sums in a fixed order give sums in the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
@@ -26,6 +28,12 @@ impl Tally {
         self.longest = self.longest.max(step);
         self.accepted += 1;
         self.error += error;
+    }
+
+    /// Refuses more panels or substeps than `most`, tried ones counting, at `time`.
+    pub(super) fn hold<E: std::error::Error + 'static>(&self, most: u64, time: f64) -> Result<(), AdvanceError<E>> {
+        let substeps = self.accepted + self.rejected;
+        if substeps > most { Err(AdvanceError::ManySubsteps { time, substeps, most }) } else { Ok(()) }
     }
 
     /// Adds the next piece of time over the same points: errors add up.

@@ -58,6 +58,37 @@ pub enum AdvanceError<E: std::error::Error + 'static> {
         /// The tolerance.
         tolerance: f64,
     },
+    /// More substeps between two events than are allowed do not meet the tolerance.
+    #[error(
+        "from time {time} on the error estimate of the wear depth stays at {estimate:e} relative with {substeps} substeps, \
+         expected at most the tolerance {tolerance:e} within {most} (`integrator.most_substeps`); it never falls for a \
+         law whose wear depends on the length of the substep, nor where `contact.tolerance` leaves the pressure open"
+    )]
+    Stalled {
+        /// Time at the start of the stretch.
+        time: f64,
+        /// Substeps that were tried.
+        substeps: u64,
+        /// Relative error estimate with them.
+        estimate: f64,
+        /// The tolerance.
+        tolerance: f64,
+        /// Most substeps.
+        most: u64,
+    },
+    /// Short substeps made too many of them between two events.
+    #[error(
+        "at time {time} the substeps since the last event are {substeps}, because the law, its tolerance or the stability \
+         limit want them short; expected at most {most} (`integrator.most_substeps`)"
+    )]
+    ManySubsteps {
+        /// Time.
+        time: f64,
+        /// Substeps since the last event.
+        substeps: u64,
+        /// Most substeps.
+        most: u64,
+    },
 }
 
 /// Whether an error vanishes in the rounding of the wear it is added to.

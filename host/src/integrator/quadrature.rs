@@ -56,6 +56,8 @@ pub struct Span {
     pub length: f64,
     /// A law's wish for less than this is an error; 0: no such limit.
     pub smallest: f64,
+    /// Most panels or substeps that it may be cut into.
+    pub most: u64,
 }
 
 /// Buffers of one chunk, kept from piece to piece.
@@ -105,6 +107,7 @@ impl Quadrature {
                 Verdict::Good { error, shared } => {
                     tally.accept(panel.length(), error);
                     left -= if shared { error } else { 0.0 };
+                    tally.hold(span.most, panel.time())?;
                     for (total, part) in wear.iter_mut().zip(&room.high) {
                         *total += part;
                     }
@@ -131,6 +134,7 @@ impl Quadrature {
                 }
             };
             tally.rejected += 1;
+            tally.hold(span.most, panel.time())?;
             if depth + halve > MOST_HALVINGS {
                 let asked = panel.length() * (-f64::from(halve)).exp2();
                 return Err(AdvanceError::SmallestStep { time: panel.time(), asked, smallest: span.smallest });

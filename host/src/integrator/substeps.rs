@@ -138,6 +138,7 @@ impl Control {
                         wish = if cut_short { next.max(wish) } else { next };
                         at = to;
                         *hint = wish;
+                        tally.hold(span.most, time)?;
                         continue;
                     }
                     if to - at < SHORTEST || tries > MOST {
@@ -156,6 +157,7 @@ impl Control {
                 }
             };
             tally.rejected += 1;
+            tally.hold(span.most, time)?;
             wish = step * factor;
         }
         Ok(tally)
@@ -283,13 +285,31 @@ mod tests {
     }
 
     fn run(control: Control, longest: f64, smallest: f64) -> Result<(f64, Tally), AdvanceError<Infallible>> {
+        run_within(u64::MAX, control, longest, smallest)
+    }
+
+    fn run_within(
+        most: u64,
+        control: Control,
+        longest: f64,
+        smallest: f64,
+    ) -> Result<(f64, Tally), AdvanceError<Infallible>> {
         let mut law = Decay { length: 2.0, longest };
         let mut memory = Memory { wear: vec![0.0; 3], state: vec![1.0; 3] };
-        let span = Span { start: 0.0, length: 2.0, smallest };
+        let span = Span { start: 0.0, length: 2.0, smallest, most };
         let mut hint = f64::INFINITY;
         let tally = control.advance(&mut law, span, &mut hint, &mut Room::default(), &mut memory)?;
         assert!(memory.wear.iter().zip(&memory.state).all(|(w, s)| (w + s - 1.0).abs() < 1e-12));
         Ok((memory.wear[1], tally))
+    }
+
+    #[test]
+    fn a_piece_takes_no_more_substeps_than_are_allowed() {
+        let substeps = |most| run_within(most, Control::Fixed, 1e-2, 0.0).map(|(_, tally)| tally.accepted);
+        let taken = substeps(u64::MAX).expect("no limit");
+        assert!(taken >= 200, "{taken}");
+        assert!(matches!(substeps(50), Err(AdvanceError::ManySubsteps { substeps: 51, most: 50, .. })));
+        assert_eq!(substeps(2 * taken).expect("a limit that is kept"), taken);
     }
 
     #[test]
@@ -334,7 +354,7 @@ mod tests {
     fn a_rate_that_starts_like_a_power_of_time_meets_its_tolerance() {
         for tolerance in [1e-3, 1e-6, 1e-8] {
             let mut memory = Memory { wear: vec![0.0; 2], state: Vec::new() };
-            let span = Span { start: 0.0, length: 1.0, smallest: 0.0 };
+            let span = Span { start: 0.0, length: 1.0, smallest: 0.0, most: u64::MAX };
             let (mut hint, mut room) = (f64::INFINITY, Room::default());
             let control = Control::Tolerance(tolerance);
             let tally = control.advance(&mut Root, span, &mut hint, &mut room, &mut memory).expect("it converges");
@@ -348,7 +368,7 @@ mod tests {
         let mut memory = Memory { wear: vec![0.0; 2], state: vec![1.0; 2] };
         let (mut hint, mut room) = (f64::INFINITY, Room::default());
         let mut calls = |control: Control, length: f64| {
-            let span = Span { start: 0.0, length, smallest: 0.0 };
+            let span = Span { start: 0.0, length, smallest: 0.0, most: u64::MAX };
             let mut law = Decay { length, longest: 10.0 };
             let tally = control.advance(&mut law, span, &mut hint, &mut room, &mut memory);
             tally.expect("it converges").law_calls

@@ -8,7 +8,7 @@ use crate::law::{Fields, LawDescriptor, UnitSizes};
 use crate::plan::needs::Setting;
 use crate::plan::output::{self, OutputPlan, ReferencePlan};
 use crate::plan::{Advance, Block, Material, PlanError, PlanProblem, SolvedPlan, advance, loading};
-use crate::scene::{Accuracy, Model, ScalingKind, Scene, Stop, Units};
+use crate::scene::{Accuracy, Integrator, Model, ScalingKind, Scene, Stop, Units};
 
 /// Something that is left out, and why.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -66,6 +66,8 @@ pub struct Plan {
     pub tolerance: Option<f64>,
     /// A law's wish for less than this is an error; 0: no limit.
     pub smallest_step: f64,
+    /// Most substeps between two events of the loading.
+    pub most_substeps: u64,
     /// Initial values of the state variables.
     pub initial_state: Vec<f64>,
     /// When to end early.
@@ -154,6 +156,7 @@ impl Plan {
             substeps,
             tolerance,
             smallest_step: scene.integrator.smallest_step.unwrap_or(0.0),
+            most_substeps: scene.integrator.most_substeps.unwrap_or(Integrator::MOST_SUBSTEPS),
             initial_state: initial_state(scene, law, sizes)?,
             stop: scene.stop.clone(),
             reference: output::reference(scene)?,

@@ -60,6 +60,9 @@ pub struct Integrator {
     /// A law's wish for a step below this is an error; `None`: no such limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_step: Option<f64>,
+    /// Most substeps between two events of the loading; `None`: [`Integrator::MOST_SUBSTEPS`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub most_substeps: Option<u64>,
 }
 
 /// Which scaling of the wear increment.
@@ -136,9 +139,19 @@ impl Serialize for Accuracy {
 }
 
 impl Integrator {
+    /// Most substeps between two events of the loading, where a scene does not say.
+    pub const MOST_SUBSTEPS: u64 = 100_000;
+
     pub(super) fn read(section: &Section<'_>, model: ModelKind) -> Result<Self, SceneError> {
         section.keys(
-            &[("method", &[]), ("tolerance", &[]), ("substeps", &[]), ("beyond_limit", SOLVED), ("smallest_step", &[])],
+            &[
+                ("method", &[]),
+                ("tolerance", &[]),
+                ("substeps", &[]),
+                ("beyond_limit", SOLVED),
+                ("smallest_step", &[]),
+                ("most_substeps", &[]),
+            ],
             model,
         )?;
         section.at_most_one(&["tolerance", "substeps"])?;
@@ -152,6 +165,7 @@ impl Integrator {
             accuracy,
             beyond_limit: section.get("beyond_limit").map(|item| item.word()).transpose()?,
             smallest_step: section.get("smallest_step").map(|item| item.number(Bound::Above(0.0))).transpose()?,
+            most_substeps: section.get("most_substeps").map(|item| item.count(1, LARGEST_COUNT)).transpose()?,
         })
     }
 }

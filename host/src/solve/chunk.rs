@@ -295,7 +295,8 @@ pub(super) fn advance(
 ) -> Result<Done, AdvanceError<PointError>> {
     let Scratch { rooms, quadrature, substeps, memory, direction, path, parts, .. } = scratch;
     let piece = site.piece;
-    let span = Span { start: piece.start, length: piece.end - piece.start, smallest: site.plan.smallest_step };
+    let (smallest, most) = (site.plan.smallest_step, site.plan.most_substeps);
+    let span = Span { start: piece.start, length: piece.end - piece.start, smallest, most };
     let (control, sample) = match site.plan.advance {
         Advance::Rate(_) => (Control::Fixed, Sample::Middle),
         Advance::Substeps(control, sample) => (control, sample),

@@ -27,7 +27,7 @@ impl<F: Fn(f64) -> f64> Rate for Given<F> {
 
 fn integrate(quadrature: Quadrature, rate: impl Fn(f64) -> f64, longest: f64) -> (f64, Tally) {
     let mut wear = vec![1.0; 4];
-    let span = Span { start: 5.0, length: 2.0, smallest: 0.0 };
+    let span = Span { start: 5.0, length: 2.0, smallest: 0.0, most: u64::MAX };
     let tally = quadrature
         .integrate(&mut Given { rate, longest }, span, &mut Room::default(), &mut wear)
         .expect("the integral exists");
@@ -93,7 +93,7 @@ fn a_named_rule_can_be_held_to_a_tolerance() {
 fn a_wish_for_a_shorter_substep_is_honoured_or_refused() {
     let (sum, tally) = integrate(Quadrature::Adaptive(1e-6), |_| 1.0, 0.15);
     assert!((sum - 2.0).abs() < 1e-14 && tally.longest <= 0.15 && tally.rejected >= 1, "{tally:?}");
-    let span = Span { start: 0.0, length: 2.0, smallest: 0.5 };
+    let span = Span { start: 0.0, length: 2.0, smallest: 0.5, most: u64::MAX };
     let mut rate = Given { rate: |_| 1.0, longest: 0.15 };
     let error = Quadrature::Fixed.integrate(&mut rate, span, &mut Room::default(), &mut [0.0; 4]);
     assert!(matches!(error, Err(AdvanceError::SmallestStep { .. })));
@@ -104,7 +104,7 @@ fn a_rate_that_no_rule_resolves_is_an_error() {
     let mixed = |x: f64| (x.to_bits() ^ (x.to_bits() >> 29)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let noise = |x: f64| if mixed(x) >> 63 == 0 { 1.0 } else { -1.0 };
     let mut rate = Given { rate: noise, longest: 10.0 };
-    let span = Span { start: 0.0, length: 1.0, smallest: 0.0 };
+    let span = Span { start: 0.0, length: 1.0, smallest: 0.0, most: u64::MAX };
     let error = Quadrature::Adaptive(1e-9).integrate(&mut rate, span, &mut Room::default(), &mut [0.0; 4]);
     assert!(matches!(error, Err(AdvanceError::Tolerance { .. })), "{error:?}");
 }
@@ -132,7 +132,7 @@ fn noise_that_vanishes_in_the_wear_so_far_is_no_error() {
     let mixed = |x: f64| (x.to_bits() ^ (x.to_bits() >> 29)).wrapping_mul(0x9E37_79B9_7F4A_7C15) as i64;
     let rate = |x: f64| 1e-11 * x + 1e-16 * (mixed(x) as f64 / i64::MAX as f64);
     let quadrature = Quadrature::Adaptive(1e-13);
-    let span = Span { start: 0.0, length: 1.0, smallest: 0.0 };
+    let span = Span { start: 0.0, length: 1.0, smallest: 0.0, most: u64::MAX };
     let mut noisy = Given { rate, longest: 10.0 };
     let fresh = quadrature.integrate(&mut noisy, span, &mut Room::default(), &mut [0.0; 4]);
     assert!(matches!(fresh, Err(AdvanceError::Tolerance { .. })), "{fresh:?}");

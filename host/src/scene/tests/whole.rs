@@ -40,6 +40,7 @@ fn the_documented_scene() {
         accuracy: Accuracy::Tolerance(1e-4),
         beyond_limit: Some(BeyondLimit::Refuse),
         smallest_step: Some(1e-9),
+        most_substeps: None,
     };
     assert_eq!(scene.integrator, integrator);
     let scaling = Scaling { kind: Some(ScalingKind::None), safety: Some(0.1), maximum: Some(1e5) };

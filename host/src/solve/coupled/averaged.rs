@@ -7,7 +7,9 @@ use crate::integrator::Reply;
 use crate::solve::PointError;
 
 /// Most contact solves for one averaged increment.
-const MOST_SOLVES: usize = 60;
+const MOST_SOLVES: usize = 100;
+/// Solves after which every other one halves the bracket.
+const PATIENCE: usize = 10;
 
 impl System<'_> {
     /// Replaces rates by their mean over the cells in contact at the start of the substep, all cells being equally large.
@@ -25,7 +27,7 @@ impl System<'_> {
     ///
     /// The mean increment x that the law gives on the surface worn by x falls with x (more wear, less pressure), so the
     /// x that gives itself is bracketed by 0 and by what the unworn surface gives; it is found by regula falsi with
-    /// halved ends (Dowell and Jarratt, BIT 11, 1971).
+    /// halved ends (Dowell and Jarratt, BIT 11, 1971), and by halving where that is slow.
     pub(super) fn averaged(
         &mut self,
         driven: Driven,
@@ -43,7 +45,7 @@ impl System<'_> {
         let (mut at_low, mut at_high) = (0.0, 0.0);
         let mut x = 0.0;
         let mut side = 0;
-        for _ in 0..MOST_SOLVES {
+        for attempt in 0..MOST_SOLVES {
             self.open_gap(base);
             for cell in &self.closed {
                 self.room.gap[*cell as usize] += x;
@@ -56,6 +58,11 @@ impl System<'_> {
             let excess = mean - x;
             // To the accuracy of the contact solve, which is that of a length.
             if excess.abs() <= self.solved.contact_tolerance * self.gap_scale.max(x) || excess.abs() <= 1e-14 * x {
+                return Ok(Reply::Good);
+            }
+            if high - low <= self.solved.contact_tolerance * self.gap_scale {
+                // The mean may fall so steeply, near the end of the contact, that no x gives itself any better.
+                self.closed.iter().for_each(|cell| rate[*cell as usize] = x / weight);
                 return Ok(Reply::Good);
             }
             if excess > 0.0 {
@@ -71,7 +78,11 @@ impl System<'_> {
                 }
                 side = -1;
             }
-            x = if high.is_infinite() { mean } else { (low * at_high - high * at_low) / (at_high - at_low) };
+            x = match (high.is_infinite(), attempt >= PATIENCE && attempt % 2 == 0) {
+                (true, _) => mean,
+                (false, true) => low.midpoint(high),
+                (false, false) => (low * at_high - high * at_low) / (at_high - at_low),
+            };
         }
         Err(PointError::Newton {
             iterations: MOST_SOLVES,

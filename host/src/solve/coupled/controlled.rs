@@ -19,8 +19,9 @@ use crate::solve::{PointError, SolveError};
 
 /// Steps of the first pass over the first stretch.
 const FIRST_STEPS: u64 = 4;
-/// Most steps of a pass.
-pub(super) const MOST_STEPS: u64 = 1 << 22;
+/// Passes in a row, each in at least twice as many steps, that may leave the difference above half of the least one
+/// before: a wear that depends on the length of the steps never settles.
+const MOST_STALLS: u32 = 6;
 /// Order at which the difference of two passes is assumed to fall: below the formulas' own, because of moving edges.
 const ORDER: f64 = 0.75;
 /// Part of the steps of a pass that is spread evenly.
@@ -86,6 +87,7 @@ impl<'p> Coupled<'p> {
         let mut coarse: Option<Pass> = None;
         let mut steps = self.fewest_steps(system, going, &segment, (start, until, number))?.max(going.control.steps);
         let mut failures = 0;
+        let (mut least, mut stalls) = (f64::INFINITY, 0);
         loop {
             going.stepper.return_to(system, &begin);
             // Uneven steps could be beyond the limit that their number keeps.
@@ -133,14 +135,17 @@ impl<'p> Coupled<'p> {
             going.rejected += before.steps;
             let factor = (1.2 * error / budget).ceil().min(MOST_MORE as f64) as u64;
             steps = fine.steps.saturating_mul(factor.max(2));
-            if steps > MOST_STEPS {
+            (least, stalls) = if error < 0.5 * least { (error, 0) } else { (least, stalls + 1) };
+            if steps > self.plan.most_substeps || stalls >= MOST_STALLS {
                 going.stepper.return_to(system, &begin);
-                let size = norm(fine.wear.iter().copied());
-                let source = AdvanceError::Tolerance {
+                let tolerance = self.plan.tolerance.unwrap_or_default();
+                let source = AdvanceError::Stalled {
                     time: segment.represented_at(start),
-                    step: (until - start) * segment.scale / fine.steps as f64,
-                    estimate: if size > 0.0 { error / size } else { f64::INFINITY },
-                    tolerance: self.plan.tolerance.unwrap_or_default(),
+                    substeps: fine.steps,
+                    // Relative to what the tolerance is relative to here.
+                    estimate: error / budget * tolerance,
+                    tolerance,
+                    most: self.plan.most_substeps,
                 };
                 return Err(failed(&segment, number, start, source).into());
             }
@@ -188,6 +193,12 @@ impl<'p> Coupled<'p> {
                 let dt = accepted.length * segment.scale;
                 let row = rows::row(system, &going.stepper.wear, &going.clock, dt, segment.scale);
                 taken.push(Taken { accepted, reach, clock: going.clock, row });
+                let (substeps, most) = (taken.len() as u64, self.plan.most_substeps);
+                if substeps > most {
+                    going.clock = before;
+                    let time = segment.represented_at(at);
+                    return Ok(Err(AdvanceError::ManySubsteps { time, substeps, most }));
+                }
                 going.trial()?;
             }
         }
@@ -234,7 +245,11 @@ impl<'p> Coupled<'p> {
 /// An error of local order 2 is proportional to the change times the step, so steps are as dense as its square root; a part
 /// of them is spread evenly, because a coarse pass does not see everything.
 fn ends(start: f64, until: f64, steps: u64, seen: &[Taken]) -> Vec<f64> {
-    let known: Vec<f64> = seen.iter().map(|taken| taken.accepted.change.max(0.0).sqrt()).collect();
+    // Over the largest, so that roots do not round differently in other units.
+    let changes = seen.iter().map(|taken| taken.accepted.change);
+    let most = changes.filter(|change| change.is_finite()).fold(0.0, f64::max);
+    let most = if most > 0.0 { most } else { 1.0 };
+    let known: Vec<f64> = seen.iter().map(|taken| (taken.accepted.change / most).max(0.0).sqrt()).collect();
     let total: f64 = known.iter().filter(|weight| weight.is_finite()).sum();
     let even = |k: u64| start + (until - start) * (k as f64 / steps as f64);
     let mut ends: Vec<f64> = (1..steps).map(even).collect();
@@ -280,7 +295,8 @@ fn may_help(error: &AdvanceError<PointError>) -> bool {
     matches!(error, AdvanceError::Evaluate(PointError::Contact(_) | PointError::Newton { .. }))
 }
 
-fn failed(segment: &Segment<'_>, number: i64, at: f64, source: AdvanceError<PointError>) -> SolveError {
+/// The error of a substep, `number` substeps of the load step being done by the simulated time `at`.
+pub(super) fn failed(segment: &Segment<'_>, number: i64, at: f64, source: AdvanceError<PointError>) -> SolveError {
     SolveError::Advance {
         load_step: segment.number,
         substep: number + 1,

@@ -1,13 +1,13 @@
 //! Explicit steps and their stability limit: measured where a load step begins and where the contact or the law's slope
 //! has changed since, then kept, cut or overstepped as the scene says.
 
-use super::controlled::MOST_STEPS;
+use super::controlled::failed;
 use super::going::{Going, Leave};
 use super::run::Coupled;
 use super::segment::{Driven, Segment};
 use super::system::{Substep, System};
 use crate::contact::Control;
-use crate::integrator::{Formula, Reply};
+use crate::integrator::{AdvanceError, Formula, Reply};
 use crate::plan::{Elastic, Slope};
 use crate::record::{Checkpoint, CheckpointError, Stability};
 use crate::scene::{BeyondLimit, Mode};
@@ -94,8 +94,8 @@ impl System<'_> {
         for _ in 0..MOST_CUTS {
             let reply = match self.solved.scheme.slope {
                 // Of degree 1 the slope is the increment over the pressure, to the last digit.
-                Slope::Proportional => self.evaluate(driven, point, false)?,
-                Slope::Derivative | Slope::Difference => self.linearise_listed(driven, point)?,
+                Slope::Proportional => self.evaluate(driven, point, (false, false))?,
+                Slope::Derivative | Slope::Difference => self.linearise_listed(driven, point, false)?,
             };
             match reply {
                 Reply::Good if self.solved.scheme.slope == Slope::Proportional => {
@@ -192,8 +192,11 @@ impl<'p> Coupled<'p> {
             BeyondLimit::Substep => {
                 let pieces = (step / (KEPT * limit)).ceil();
                 let end = at + (until - at) / pieces;
-                if end - at <= 16.0 * f64::EPSILON * until.abs() || pieces > MOST_STEPS as f64 {
-                    return Err(refused.into());
+                let most = self.plan.most_substeps;
+                if end - at <= 16.0 * f64::EPSILON * until.abs() || pieces > most as f64 {
+                    let many =
+                        AdvanceError::ManySubsteps { time: segment.represented_at(at), substeps: pieces as u64, most };
+                    return Err(failed(segment, number - 1, at, many).into());
                 }
                 going.watch.cut += 1;
                 Ok(end)
@@ -218,9 +221,10 @@ impl<'p> Coupled<'p> {
         let step = (until - at) * segment.scale;
         let limit = self.limit(system, going, segment, (at, until, number + 1))?;
         let steps = (step / (KEPT * limit)).ceil().max(1.0);
-        if steps > MOST_STEPS as f64 {
-            let time = segment.represented_at(at);
-            return Err(SolveError::BeyondLimit { load_step: segment.number, time, step, limit }.into());
+        let most = self.plan.most_substeps;
+        if steps > most as f64 {
+            let many = AdvanceError::ManySubsteps { time: segment.represented_at(at), substeps: steps as u64, most };
+            return Err(failed(segment, number, at, many).into());
         }
         Ok(steps as u64)
     }

@@ -2,7 +2,7 @@
 
 use super::segment::Driven;
 use super::system::System;
-use crate::contact::Diagonal;
+use crate::contact::{Control, Diagonal};
 use crate::integrator::Reply;
 use crate::plan::Slope;
 use crate::solve::PointError;
@@ -16,6 +16,8 @@ const DIFFERENCE: f64 = 1e-7;
 /// Part of its pressure that a point keeps as its point of linearisation at least, where the law is steeper below: from
 /// there the method goes up monotonically, at zero the slope may be infinite.
 const KEPT: f64 = 0.05;
+/// Part of the contact tolerance that wear at no pressure may be wrong by.
+const NEGLIGIBLE: f64 = 1e-3;
 /// A slope below minus this part of increment / pressure is no rounding: the law falls with pressure.
 const FALLING: f64 = 1e-5;
 
@@ -23,7 +25,8 @@ impl System<'_> {
     /// The rate at `base + weight * rate`: the law is linearised at a pressure, the contact solved with its slope as the
     /// local compliance and the rest of the line as gap, and so on from the pressure that this gives.
     ///
-    /// It ends when sum p |J(p) - line(p)| is below the contact tolerance, J being what the stage wears.
+    /// It ends when the misfit of J(p) and the line is below the contact tolerance, J being what the stage wears. Under nodal
+    /// tractions J reaches the neighbours of the contact, as the solve does ([`crate::contact::Problem`]).
     pub(super) fn newton(
         &mut self,
         driven: Driven,
@@ -35,6 +38,13 @@ impl System<'_> {
             self.open_gap(base);
             self.solve(driven.control, Diagonal::Zero, false, self.solved.contact_tolerance)?;
         }
+        if let Control::Approach(approach) = driven.control
+            && self.is_shallow(approach, base)
+        {
+            self.pressure.fill(0.0);
+            (self.solution.approach, self.solution.load) = (approach, 0.0);
+            return self.rate(driven, rate);
+        }
         let mut point = std::mem::take(&mut self.room.point);
         let mut diagonal = std::mem::take(&mut self.room.diagonal);
         let mut line = std::mem::take(&mut self.room.expected);
@@ -42,6 +52,13 @@ impl System<'_> {
         let reply = self.iterate(driven, weight, base, rate, (&mut point, &mut diagonal, &mut line));
         (self.room.point, self.room.diagonal, self.room.expected) = (point, diagonal, line);
         reply
+    }
+
+    /// Whether the surfaces overlap nowhere by more than the contact tolerance: no pressure is then as good an answer as any.
+    /// A law that wears a point to the end leaves such overlaps, and they are no more than rounding of the gaps.
+    fn is_shallow(&self, approach: f64, base: &[f64]) -> bool {
+        let least = approach - self.solved.contact_tolerance * self.gap_scale;
+        self.initial_gap.iter().zip(base).all(|(gap, wear)| gap + wear >= least)
     }
 
     fn iterate(
@@ -55,6 +72,7 @@ impl System<'_> {
         let open = self.evaluator.descriptor().wants_open_points();
         let per_increment = weight / self.substep.dt;
         let mut tolerance = self.solved.contact_tolerance;
+        let negligible = NEGLIGIBLE * tolerance * self.gap_scale;
         let (mut best, mut since_best, mut residual) = (f64::INFINITY, 0, f64::INFINITY);
         let cells = point.len();
         for iteration in 0..MOST_ITERATIONS {
@@ -83,14 +101,18 @@ impl System<'_> {
             self.solve(driven.control, Diagonal::PerPoint(diagonal), smoothed, inner)?;
             // What the law says at the pressure that was found, against what the line says.
             let pressure = std::mem::take(&mut self.pressure);
-            Self::list(&mut self.room.cells, &pressure, open);
-            let reply = self.evaluate(driven, &pressure, false);
+            self.list_reached(&pressure, open);
+            let reply = self.evaluate(driven, &pressure, (false, true));
             self.pressure = pressure;
             if let cut @ Reply::Cut(_) = reply? {
                 return Ok(cut);
             }
             residual = self.misfit(per_increment, diagonal, line, point);
             if residual <= tolerance && inner <= tolerance {
+                if self.smoothed() {
+                    // The neighbours of the contact were in it for the sake of the answer; they do not wear.
+                    return self.rate(driven, rate);
+                }
                 self.spread(rate);
                 return Ok(Reply::Good);
             }
@@ -98,7 +120,8 @@ impl System<'_> {
             let damped = since_best > PATIENCE;
             for (cell, (point, found)) in point.iter_mut().zip(&self.pressure).enumerate() {
                 // Concave at this point: the line lies above the law on the way down to zero.
-                let keep = if line[cell] > 0.0 { KEPT * *point } else { 0.0 };
+                // A line that wears next to nothing at no pressure, and leaves none, says that the point is open.
+                let keep = if line[cell] > negligible { KEPT * *point } else { 0.0 };
                 let next = found.max(keep);
                 *point = if damped { 0.5 * (*point + next) } else { next };
             }
@@ -109,21 +132,26 @@ impl System<'_> {
         Err(PointError::Newton { iterations: MOST_ITERATIONS, residual, tolerance })
     }
 
-    /// Increments and slopes of the law at the points of linearisation, for the cells under pressure there.
+    /// Increments and slopes of the law at the points of linearisation, for the cells that wear there.
     fn linearise(&mut self, driven: Driven, point: &[f64], open: bool) -> Result<Reply, PointError> {
-        Self::list(&mut self.room.cells, point, open);
-        self.linearise_listed(driven, point)
+        self.list_reached(point, open);
+        self.linearise_listed(driven, point, true)
     }
 
-    /// Increments and slopes of the law at the cells in `room.cells` under pressures `[cells]`.
-    pub(super) fn linearise_listed(&mut self, driven: Driven, point: &[f64]) -> Result<Reply, PointError> {
+    /// Increments and slopes of the law at the cells in `room.cells` under pressures `[cells]`; see [`System::evaluate`].
+    pub(super) fn linearise_listed(
+        &mut self,
+        driven: Driven,
+        point: &[f64],
+        reaching: bool,
+    ) -> Result<Reply, PointError> {
         if self.solved.scheme.slope == Slope::Derivative {
-            if let cut @ Reply::Cut(_) = self.evaluate(driven, point, true)? {
+            if let cut @ Reply::Cut(_) = self.evaluate(driven, point, (true, reaching))? {
                 return Ok(cut);
             }
         } else {
             let smallest = DIFFERENCE * 1e-3 * self.probe_pressure();
-            if let cut @ Reply::Cut(_) = self.evaluate(driven, point, false)? {
+            if let cut @ Reply::Cut(_) = self.evaluate(driven, point, (false, reaching))? {
                 return Ok(cut);
             }
             let increment = self.law.increment.clone();
@@ -170,34 +198,34 @@ impl System<'_> {
         Ok(Reply::Good)
     }
 
-    /// sum p |J(p) - line(p)| / (sum p * scale), in the units of the complementarity error.
+    /// sum p |J(p) - line(p)| / (sum p * scale), plus the deepest overlap that J(p) < line(p) leaves, over the scale: the
+    /// units of the complementarity error.
     fn misfit(&self, per_increment: f64, diagonal: &[f64], line: &[f64], point: &[f64]) -> f64 {
         let smoothed = self.smoothed();
         let largest = self.pressure.iter().chain(point).fold(0.0, |most: f64, p| most.max(*p));
         if largest == 0.0 {
             return 0.0;
         }
-        let (mut sum, mut weight, mut shares) = (0.0, 0.0, 0.0);
+        let (mut sum, mut weight, mut deepest) = (0.0, 0.0, 0.0_f64);
         let mut listed = self.room.cells.iter().enumerate().peekable();
         for cell in 0..point.len() {
             let found = listed.next_if(|(_, at)| **at as usize == cell);
             let pressure = self.pressure[cell];
-            if pressure == 0.0 && point[cell] == 0.0 {
+            let driving = if smoothed { self.room.traction[cell] } else { pressure };
+            if driving == 0.0 && point[cell] == 0.0 {
                 continue;
             }
-            let driving = if smoothed { self.room.traction[cell] } else { pressure };
             let law = found.map_or(0.0, |(i, _)| per_increment * self.law.increment[i]);
             // An open cell is misjudged only by what its line wears at no pressure.
             let line = line[cell] + diagonal[cell] * driving;
-            let share = pressure.max(if pressure > 0.0 { 0.0 } else { point[cell] }) / largest;
+            let share = if pressure > 0.0 { pressure } else { point[cell] } / largest;
             sum += share * (law - line).abs();
-            weight += pressure / largest;
-            shares += share;
+            // Cells that their lines left open count too: the line of a concave law lies far above it on the way down to zero,
+            // and where it leaves no pressure at all the answer is not that nothing wears.
+            weight += share;
+            deepest = deepest.max(line - law);
         }
-        // Where the lines left no pressure at all, the points of linearisation are what is judged: the line of a concave
-        // law lies far above it on the way down to zero.
-        let weight = if weight > 0.0 { weight } else { shares };
-        if weight > 0.0 { sum / weight / self.gap_scale } else { 0.0 }
+        (if weight > 0.0 { sum / weight } else { 0.0 } + deepest) / self.gap_scale
     }
 }
 

@@ -9,7 +9,7 @@ use super::segment::Segment;
 use super::stepper::{Reach, Stepper};
 use super::system::{Substep, System};
 use crate::contact::surface::height_map;
-use crate::integrator::{Formula, norm};
+use crate::integrator::{AdvanceError, Formula, norm};
 use crate::law::Evaluator;
 use crate::plan::{Plan, SolvedPlan};
 use crate::record::{Checkpoint, End, Line, Observer, Record};
@@ -175,8 +175,10 @@ impl<'p> Coupled<'p> {
                 }
                 going.settle(system, self.evaluator)?;
             }
+            let first = going.place.number;
             while going.place.at < until {
                 let (at, number) = (going.place.at, going.place.number + 1);
+                self.few_enough(&segment, (first, number), segment.represented_at(at))?;
                 let end = self.within_limit(system, going, &segment, (at, until, number))?;
                 let reach = Reach { start: at, until: end, number };
                 let length = self.step(system, going, (segment, reach), cycles_per_time)?;
@@ -205,8 +207,10 @@ impl<'p> Coupled<'p> {
     ) -> Result<(), Leave> {
         let unscaled = segment.length / self.plan.substeps.unwrap_or(1) as f64;
         for until in segment.events(self.plan) {
+            let first = going.place.number;
             while going.clock.represented < until {
                 let (at, represented) = (going.place.at, going.clock.represented);
+                self.few_enough(&segment, (first, going.place.number + 1), represented)?;
                 let left = (until - represented) / unscaled;
                 let stretch = going.place.stretch;
                 let scale = if stretch >= left * (1.0 - 1e-12) { left } else { stretch };
@@ -228,6 +232,16 @@ impl<'p> Coupled<'p> {
             }
         }
         Ok(())
+    }
+
+    /// Refuses a substep number that lies too far behind the last event, at a represented time.
+    fn few_enough(&self, segment: &Segment<'p>, (first, number): (i64, i64), time: f64) -> Result<(), SolveError> {
+        let (substeps, most) = ((number - first).unsigned_abs(), self.plan.most_substeps);
+        if substeps <= most {
+            return Ok(());
+        }
+        let source = Box::new(AdvanceError::ManySubsteps { time, substeps, most });
+        Err(SolveError::Advance { load_step: segment.number, substep: number, time, source })
     }
 
     /// Takes one step and tells of it; gives its simulated length.

@@ -2,11 +2,17 @@
 
 use super::segment::Segment;
 use super::system::{Substep, System};
-use crate::contact::Solution;
+use crate::contact::{ContactError, Solution};
 use crate::integrator::{AdvanceError, Answering, Formula, Reply, Span, Stages, Tried, norm};
 use crate::law::{Claim, Field};
 use crate::plan::Elastic;
 use crate::solve::PointError;
+
+/// Times that a step whose contact is not solved is tried in a shorter one, and how much shorter.
+const MOST_FAILURES: u32 = 6;
+const SHORTER: f64 = 0.25;
+const UNSOLVED: &str =
+    "the contact with the law in it could not be solved for some substeps: shorter ones took their place";
 
 /// What an accepted step came to.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,6 +42,9 @@ pub(super) struct Stepper {
     smallest: f64,
     /// Whether second-order steps are held to the rule below; only a study of what they do alone lifts it.
     pub(super) guards: bool,
+    /// Whether a step whose contact is not solved is tried again in shorter ones; only a study of single steps wants to
+    /// see it fail.
+    pub(super) persists: bool,
 }
 
 /// How far a step may go.
@@ -81,6 +90,7 @@ impl Stepper {
             known: false,
             smallest,
             guards: true,
+            persists: true,
         }
     }
 
@@ -160,18 +170,21 @@ impl Stepper {
             system.remembered_wear.clone_from(&self.wear);
         }
         let mut accepted = Accepted { length: reach.until - reach.start, ..Accepted::default() };
+        let mut failures = 0;
         loop {
             let length = accepted.length;
             let dt = length * segment.scale;
             system.substep = Substep { segment, start: reach.start, dt, number: reach.number };
             let span = Span { start: reach.start, length, scale: segment.scale };
-            let tried = match system.solved.scheme.rate {
-                true => self.rate_step(system, span)?,
-                false => self.whole_step(system, span)?,
-            };
-            let tried = match tried {
-                Tried::Taken => self.guarded(system, span, &mut accepted)?,
-                cut @ Tried::Cut(_) => cut,
+            let tried = match self.attempt(system, span, &mut accepted) {
+                Err(error) if self.persists && failures < MOST_FAILURES && is_unsolved(&error) => {
+                    failures += 1;
+                    if failures == 1 {
+                        system.law.warnings.push(UNSOLVED.to_owned());
+                    }
+                    Tried::Cut(SHORTER)
+                }
+                tried => tried?,
             };
             let Tried::Cut(factor) = tried else { break };
             accepted.rejected += 1;
@@ -194,6 +207,24 @@ impl Stepper {
         };
         self.commit(system, reach.start, accepted.length);
         Ok(accepted)
+    }
+
+    /// Tries one step of a span; what it comes to is in `self.end` and the system.
+    fn attempt(&mut self, system: &mut System<'_>, span: Span, accepted: &mut Accepted) -> Result<Tried, PointError> {
+        let tried = match system.solved.scheme.rate {
+            true => self.rate_step(system, span)?,
+            false => self.whole_step(system, span)?,
+        };
+        let tried = match tried {
+            Tried::Taken => self.guarded(system, span, accepted)?,
+            cut @ Tried::Cut(_) => cut,
+        };
+        let implicit = system.solved.scheme.formula != Formula::ExplicitEuler && !system.is_post();
+        if tried == Tried::Taken && implicit && system.smoothed() {
+            // The neighbours of the contact took part in the stage as if they wore: the contact of what is worn is another.
+            system.press(system.driven(span.start + span.length).control, &self.end)?;
+        }
+        Ok(tried)
     }
 
     /// One step of a law that is a rate.
@@ -333,4 +364,9 @@ impl Stepper {
             && segment.step.velocity_file.is_none();
         still && system.evaluator.descriptor().claims(Claim::ZeroWithoutSlip) && system.solved.scheme.rate
     }
+}
+
+/// Whether a contact was not solved that a shorter step changes less.
+fn is_unsolved(error: &PointError) -> bool {
+    matches!(error, PointError::Contact(ContactError::NotConverged { .. }) | PointError::Newton { .. })
 }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::law_points::{Call, LawPoints, Remembered};
 use super::segment::{Driven, Segment};
-use crate::contact::{Cells, ContactModel, Control, Diagonal, Problem, Solution, nodal_traction};
+use crate::contact::{Cells, ContactModel, Control, Diagonal, Problem, Solution, corners_and_back, nodal_traction};
 use crate::integrator::{Answering, Reply};
 use crate::law::{Evaluator, Field};
 use crate::plan::{Elastic, Plan, Slope, SolvedPlan};
@@ -214,14 +214,38 @@ impl System<'_> {
         cells.extend(all.filter(|(_, pressure)| open || **pressure > 0.0).map(|(cell, _)| cell as u32));
     }
 
-    /// Evaluates the law at the cells in `room.cells` under pressures `[cells]` for the substep's duration.
-    pub(super) fn evaluate(&mut self, driven: Driven, pressure: &[f64], slope: bool) -> Result<Reply, PointError> {
+    /// Writes into `room.cells` those that wear in a stage under `pressure`: the cells in contact and, where nodal tractions
+    /// drive the law, their neighbours. Without those the law would jump where a cell closes, and some stages would have
+    /// no answer.
+    pub(super) fn list_reached(&mut self, pressure: &[f64], open: bool) {
+        if !self.smoothed() {
+            Self::list(&mut self.room.cells, pressure, open);
+            return;
+        }
+        let mut traction = std::mem::take(&mut self.room.traction);
+        traction.resize(pressure.len(), 0.0);
+        corners_and_back(&self.solved.cells, self.periodic(), pressure, &mut traction);
+        Self::list(&mut self.room.cells, &traction, open);
+        self.room.traction = traction;
+    }
+
+    /// Evaluates the law at the cells in `room.cells` under pressures `[cells]` for the substep's duration. `reaching`:
+    /// nodal tractions reach the neighbours of the cells in contact.
+    pub(super) fn evaluate(
+        &mut self,
+        driven: Driven,
+        pressure: &[f64],
+        (slope, reaching): (bool, bool),
+    ) -> Result<Reply, PointError> {
         let reads_traction = self.plan.fields.contains(Field::NodalTraction);
         let smoothed = self.smoothed();
         let mut traction = std::mem::take(&mut self.room.traction);
         if smoothed || reads_traction {
             traction.resize(pressure.len(), 0.0);
             match self.solved.elastic {
+                Elastic::HalfSpace { .. } if reaching => {
+                    corners_and_back(&self.solved.cells, self.periodic(), pressure, &mut traction)
+                }
                 Elastic::HalfSpace { .. } => {
                     nodal_traction(&self.solved.cells, self.periodic(), pressure, &mut traction)
                 }
@@ -303,7 +327,7 @@ impl System<'_> {
         let open = self.evaluator.descriptor().wants_open_points();
         Self::list(&mut self.room.cells, &self.pressure, open);
         let pressure = std::mem::take(&mut self.pressure);
-        let reply = self.evaluate(driven, &pressure, false);
+        let reply = self.evaluate(driven, &pressure, (false, false));
         self.pressure = pressure;
         let reply = reply?;
         if reply == Reply::Good {

@@ -146,7 +146,7 @@ impl<'p> Coupled<'p> {
         system.uniform_distance = present.uniform_distance;
         let mut stepper = Stepper::new(start.wear.len(), self.plan.smallest_step);
         stepper.wear.clone_from(&start.wear);
-        stepper.guards = how.guards;
+        (stepper.guards, stepper.persists) = (how.guards, false);
         let segment = Segment {
             step: &step,
             start: 0.0,
