@@ -16,15 +16,9 @@ int main(int argc, char **argv) {
     void *symbol = library ? dlsym(library, "wearlaw_entry_1") : NULL;
     wl_host host = {sizeof host, WL_ABI_MINOR, WL_FIELDS_KNOWN, WL_OUTS_KNOWN, "embed", "1"};
     wl_law law = {sizeof law};
-    if (!symbol) {
-        fprintf(stderr, "no law: %s\n", argc > 1 ? dlerror() : "give its path");
-        return 2;
-    }
+    if (!symbol) return fprintf(stderr, "no law: %s\n", argc > 1 ? dlerror() : "give its path"), 2;
     memcpy(&entry, &symbol, sizeof entry);
-    if (entry(0, &host, &law) != WL_OK || law.state_count > 0) {
-        fprintf(stderr, "%s: not for this host\n", argv[1]);
-        return 2;
-    }
+    if (entry(0, &host, &law) != WL_OK || law.state_count > 0) return fprintf(stderr, "%s: not for this host\n", argv[1]), 2;
 
     /* Constants: the law's defaults, then NAME=VALUE from the command line. */
     double values[64];
@@ -61,8 +55,6 @@ int main(int argc, char **argv) {
         printf("%.17g\n", increment[i]);
     }
     fprintf(stderr, "%s: status %d %s\n", law.name, (int)status, text);
-    if (law.destroy) {
-        law.destroy(instance);
-    }
+    if (law.destroy) law.destroy(instance);
     return status <= WL_UNRELIABLE ? 0 : 3;
 }
