@@ -8,15 +8,14 @@ use std::os::fd::{AsFd, AsRawFd, RawFd};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::ExitStatus;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use super::WORKER_COMMAND;
 use super::check::Check;
 use super::message::{Answer, Task};
 use super::slate::{Crumb, Slate, memory_file};
-use crate::law::isolate::process::{Event, Process, descendants, reap, signal, started};
+use crate::law::isolate::process::{Event, FAMILY, Process, descendants, reap, signal, started};
 
 /// How a worker ended.
 #[derive(Debug)]
@@ -42,12 +41,6 @@ pub(super) struct Attempt {
     pub(super) printed: String,
 }
 
-/// Workers that run now: children of this process that are not to be taken for something left behind.
-static RUNNING: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
-static NEXT: AtomicU64 = AtomicU64::new(0);
-
-/// Name of the variable by which everything that a worker starts is known.
-const MARK: &str = "WEARLAW_CHECK_WORKER";
 /// Name of the memory that a worker shares with the checker, as the system lists it.
 const MEMORY: &str = "memfd:wearlaw-check";
 /// How often a wish to end is looked for.
@@ -75,14 +68,7 @@ pub(super) fn attempt(program: &Path, task: &Task, timeout: Duration, stop: &Ato
     let arguments =
         [WORKER_COMMAND.to_owned(), slate.descriptor().to_string(), to_checker.as_raw_fd().to_string()].to_vec();
     let inherited = vec![slate.descriptor(), to_checker.as_raw_fd()];
-    let mark = format!("{}-{}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
-    let mut process = {
-        let mut running = lock();
-        let marked = [(MARK, mark.as_str())];
-        let process = Process::start(program, arguments, inherited, printed.as_fd(), &marked)?;
-        running.insert(process.id());
-        process
-    };
+    let mut process = Process::start(program, arguments, inherited, printed.as_fd())?;
     drop(to_checker);
     never_waits(from.as_raw_fd())?;
     let mut ended = waited(&process, from.as_raw_fd(), timeout, stop);
@@ -101,16 +87,8 @@ pub(super) fn attempt(program: &Path, task: &Task, timeout: Duration, stop: &Ato
     }
     let crumb = slate.crumb();
     process.end();
-    {
-        let mut running = lock();
-        sweep(&running, &short_name(program));
-        running.remove(&process.id());
-    }
+    sweep(&started(), &short_name(program));
     Ok(Attempt { ended: ended?, crumb, printed: read_printed(&mut printed) })
-}
-
-fn lock() -> std::sync::MutexGuard<'static, BTreeSet<u32>> {
-    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Waits until the worker's byte can be read ([`Ended::Silent`] until it has been), it is gone, or time is up.
@@ -152,12 +130,12 @@ fn read_printed(file: &mut File) -> String {
 }
 
 /// Ends what a worker left behind whose keeper was ended, too: it has become a child of this process, as the next
-/// subreaper, and still carries the mark of a worker.
-fn sweep(running: &BTreeSet<u32>, program: &str) {
+/// subreaper, and still carries the mark of a worker. What is on the list of the started is not left behind.
+fn sweep(started: &BTreeSet<u32>, program: &str) {
     let mut family = Vec::new();
     for _ in 0..16 {
         let left: Vec<libc::pid_t> =
-            children().into_iter().filter(|child| is_left_behind(*child, running, program)).collect();
+            children().into_iter().filter(|child| is_left_behind(*child, started, program)).collect();
         if left.is_empty() {
             break;
         }
@@ -175,9 +153,8 @@ fn sweep(running: &BTreeSet<u32>, program: &str) {
     reap(family);
 }
 
-fn is_left_behind(child: libc::pid_t, running: &BTreeSet<u32>, program: &str) -> bool {
-    let number = u32::try_from(child).unwrap_or_default();
-    if running.contains(&number) {
+fn is_left_behind(child: libc::pid_t, started: &BTreeSet<u32>, program: &str) -> bool {
+    if started.contains(&u32::try_from(child).unwrap_or_default()) {
         return false;
     }
     let read = |name: &str| std::fs::read(format!("/proc/{child}/{name}")).unwrap_or_default();
@@ -185,11 +162,11 @@ fn is_left_behind(child: libc::pid_t, running: &BTreeSet<u32>, program: &str) ->
     for last in [false, true] {
         if is_zombie(child) {
             // It shows nothing but the name of its program, which other workers of this process have, too.
-            return program_of(child) == program && !started().contains(&number);
+            return program_of(child) == program;
         }
         let environment = read("environ");
         // One that was forked and wiped its environment still has the memory that its worker shared.
-        if holds(&environment, MARK) || holds(&read("maps"), MEMORY) {
+        if holds(&environment, FAMILY) || holds(&read("maps"), MEMORY) {
             return true;
         }
         // A program that was started without any environment has no mark. One that is just ending has none to show,
@@ -285,7 +262,8 @@ mod tests {
 
     #[test]
     fn a_marked_process_is_one_unless_it_runs_for_a_check() {
-        let mut marked = std::process::Command::new("sleep").arg("20").env(MARK, "1").spawn().expect("sleep is there");
+        let mut marked =
+            std::process::Command::new("sleep").arg("20").env(FAMILY, "1").spawn().expect("sleep is there");
         let id = marked.id();
         // Between fork and exec it has this process's own environment.
         let patience = Instant::now() + Duration::from_secs(5);

@@ -246,7 +246,7 @@ impl Worker {
         };
         let inherited = vec![channels.from_parent, channels.to_parent, channels.memory];
         let arguments = std::iter::once(WORKER_COMMAND.to_owned()).chain(channels.arguments()).collect();
-        let process = Process::start(program, arguments, inherited, std::io::stderr().as_fd(), &[])?;
+        let process = Process::start(program, arguments, inherited, std::io::stderr().as_fd())?;
         Ok(Self { to, from, memory, process })
     }
 

@@ -22,8 +22,8 @@ pub(crate) struct Process {
     mark: String,
 }
 
-/// Name of the variable that tells the family of one worker.
-const FAMILY: &str = "WEARLAW_FAMILY";
+/// Name of the variable that a worker and all that it starts bear; its value tells the worker.
+pub(crate) const FAMILY: &str = "WEARLAW_FAMILY";
 
 /// What came first.
 pub(crate) enum Event {
@@ -33,25 +33,29 @@ pub(crate) enum Event {
 }
 
 impl Process {
-    /// Starts `program` with inherited descriptors and further variables; what a law prints goes to `printed`.
+    /// Starts `program` with inherited descriptors; what a law prints goes to `printed`.
     pub(crate) fn start(
         program: &Path,
         arguments: Vec<String>,
         inherited: Vec<RawFd>,
         printed: BorrowedFd<'_>,
-        variables: &[(&str, &str)],
     ) -> io::Result<Self> {
         let mut command = Command::new(program);
-        command.args(arguments).stdin(Stdio::null()).envs(variables.iter().copied());
+        command.args(arguments).stdin(Stdio::null());
         command.stdout(printed.try_clone_to_owned()?).stderr(printed.try_clone_to_owned()?);
         let parent = std::process::id();
-        static STARTED: AtomicU64 = AtomicU64::new(0);
-        let family = format!("{parent}-{}", STARTED.fetch_add(1, Ordering::Relaxed));
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        let family = format!("{parent}-{}", NEXT.fetch_add(1, Ordering::Relaxed));
         command.env(FAMILY, &family);
         // SAFETY: between fork and exec only async-signal-safe calls are made, and nothing is allocated.
         unsafe { command.pre_exec(move || before_exec(parent, &inherited)) };
-        let child = spawn_from_lasting_thread(command)?;
-        started().insert(child.id());
+        let child = {
+            // Nobody is to find it before it is on the list.
+            let mut started = started();
+            let child = spawn_from_lasting_thread(command)?;
+            started.insert(child.id());
+            child
+        };
         // SAFETY: the call takes two integers and touches no memory.
         let ended = unsafe { libc::syscall(libc::SYS_pidfd_open, child.id() as libc::pid_t, 0) };
         let ended = (ended >= 0).then(|| {
@@ -172,7 +176,7 @@ impl Drop for Process {
     }
 }
 
-/// Numbers of the processes that were started here and not yet ended.
+/// Numbers of the processes that were started here and not yet ended; none is started while this is held.
 pub(crate) fn started() -> MutexGuard<'static, BTreeSet<u32>> {
     static STARTED: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
     STARTED.lock().unwrap_or_else(PoisonError::into_inner)
