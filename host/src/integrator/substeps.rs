@@ -9,9 +9,6 @@ use crate::integrator::quadrature::Span;
 
 /// Relative length below which a piece cannot be cut further.
 const SHORTEST: f64 = 1e-13;
-/// Most substeps of one piece, those tried again included. At a tolerance of 1e-12 a smooth law takes a millionth of a
-/// piece at a time; what wants more follows no rate at all, and would never end.
-const MOST: u64 = 2_000_000;
 /// Part of the tolerance that a substep may have by itself; the rest is shared by those that cannot keep to it.
 const OWN: f64 = 0.75;
 /// Part of what is left to share that one substep may take, so that there is always some left.
@@ -117,9 +114,7 @@ impl Control {
         // Fixed substeps are the pieces; only within a piece does a cut live on.
         let mut wish = if self == Control::Fixed { f64::INFINITY } else { *hint };
         let mut budget = Budget::default();
-        let mut tries = 0;
         while at < 1.0 {
-            tries += 1;
             let asked = if span.length > 0.0 { wish / span.length } else { 1.0 };
             // A sliver at the end is not worth a substep of its own.
             let to = if at + asked > 1.0 - 0.01 * asked.min(1.0) { 1.0 } else { at + asked };
@@ -128,7 +123,7 @@ impl Control {
             let factor = match self.try_step(law, (at, to), room, memory, &mut tally)? {
                 Step::Good { error, size } => {
                     let (allowed, growth) = self.judge(error, size, budget.allowance(self, size, (at, to)));
-                    if (allowed || invisible(error, &memory.wear)) && tries <= MOST {
+                    if allowed || invisible(error, &memory.wear) {
                         room.commit(self, memory);
                         tally.accept(step, error);
                         budget.spend(self, error, size);
@@ -141,7 +136,7 @@ impl Control {
                         tally.hold(span.most, time)?;
                         continue;
                     }
-                    if to - at < SHORTEST || tries > MOST {
+                    if to - at < SHORTEST {
                         let tolerance = if let Control::Tolerance(tolerance) = self { tolerance } else { 0.0 };
                         let estimate = error / size;
                         return Err(AdvanceError::Tolerance { time, step, estimate, tolerance });
