@@ -97,18 +97,20 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     drop(earlier);
     let Listener { fields, keeper, trouble, progress, .. } = listener;
     drop(progress);
-    let mut comparison = Comparison { interrupt: &interrupt, progress: Progress::start(console) };
     if let Some(error) = trouble {
         return Err(error.into());
     }
     fields.map(FieldSeries::finish).transpose()?;
     let finished = matches!(record.end, End::Done | End::Stopped(_));
     // A reference that fails, or takes too long for whoever waits, costs its error norm, not the results.
-    let (error, without_reference) = match if finished { run.error(&record, &mut comparison) } else { Ok(None) } {
+    let compared = match finished {
+        true => run.error(&record, &mut Comparison { interrupt: &interrupt, progress: Progress::start(console) }),
+        false => Ok(None),
+    };
+    let (error, without_reference) = match compared {
         Ok(error) => (error, None),
         Err(failure) => (None, Some(failure)),
     };
-    drop(comparison);
     let report = report(&scene, &plan, &law, settings, &record, error.as_ref())?;
     write_history(&record.history, &keeper.path().join("history.csv"))?;
     let title = scene.title.clone().unwrap_or_else(|| settings.scene.display().to_string());

@@ -29,7 +29,8 @@ pub(super) fn command(console: &Console, arguments: StabilityArguments) -> Resul
     let run = Run::prepare(&plan, law.evaluator.as_ref())?;
     let at = arguments.at.unwrap_or(0.0);
     let ladder = interrupt.over(run.ladder(at, &|| !interrupt.asked()).map_err(Error::from))?;
-    let rows = extremes(&plan, &law, (ladder.as_ref(), run.ordinary()), at)?;
+    let usual = ladder.as_ref().map(|ladder| ladder.moment.ordinary()).or(run.ordinary()).unwrap_or_default();
+    let rows = extremes(&plan, &law, usual, at)?;
     let own_fine = ladder.as_ref().is_none_or(|ladder| ladder.own.fine);
     let code = if own_fine { ExitCode::Done } else { ExitCode::NumbersFailed };
     let verdict = verdict(ladder.as_ref(), &rows);
@@ -51,21 +52,10 @@ pub(super) fn command(console: &Console, arguments: StabilityArguments) -> Resul
 }
 
 /// The law at extreme input, around what an ordinary point of the scene has.
-fn extremes(
-    plan: &Plan,
-    law: &OpenedLaw,
-    (ladder, prescribed): (Option<&Ladder>, Option<Ordinary>),
-    at: f64,
-) -> Result<Vec<Extreme>, Error> {
-    let moment = ladder.map(|ladder| ladder.moment).unwrap_or_default();
-    let usual = prescribed.unwrap_or(Ordinary {
-        pressure: moment.mean_pressure,
-        velocity: moment.velocity.abs(),
-        temperature: moment.temperature,
-    });
+fn extremes(plan: &Plan, law: &OpenedLaw, usual: Ordinary, at: f64) -> Result<Vec<Extreme>, Error> {
     let or = |value: f64, ordinary: f64| if value > 0.0 { value } else { ordinary };
-    let durations = plan.blocks.iter().flat_map(|block| &block.steps).filter_map(|step| step.duration);
-    let duration = durations.into_iter().find(|duration| *duration != 0.0).unwrap_or(1.0);
+    let mut durations = plan.blocks.iter().flat_map(|block| &block.steps).filter_map(|step| step.duration);
+    let duration = durations.find(|duration| *duration != 0.0).unwrap_or(1.0);
     let table = &plan.material.constants;
     let point = Point {
         constants: (0..table.count()).map(|c| table.value(c, at, usual.temperature)).collect(),

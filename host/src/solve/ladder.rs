@@ -47,7 +47,17 @@ pub struct Moment {
     pub mean_pressure: f64,
 }
 
-/// What the most loaded point of a prescribed scene is under; in the scene's units, 0 where the scene gives nothing.
+impl Moment {
+    /// What a point in contact is under on average.
+    #[must_use]
+    pub fn ordinary(&self) -> Ordinary {
+        let &Moment { mean_pressure: pressure, velocity, temperature, .. } = self;
+        Ordinary { pressure, velocity: velocity.abs(), temperature }
+    }
+}
+
+/// What a point of a scene is under that stands for its contact: the most loaded one of a prescribed scene, the mean of a
+/// solved contact; in the scene's units, 0 where the scene gives nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ordinary {
     /// Contact pressure.
