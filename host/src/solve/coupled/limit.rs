@@ -5,7 +5,7 @@ use super::controlled::failed;
 use super::going::{Going, Leave};
 use super::run::Coupled;
 use super::segment::{Driven, Segment};
-use super::system::{Substep, System};
+use super::system::{Substep, System, Tractions};
 use crate::contact::Control;
 use crate::integrator::{AdvanceError, Formula, Reply};
 use crate::plan::{Elastic, Slope};
@@ -94,8 +94,8 @@ impl System<'_> {
         for _ in 0..MOST_CUTS {
             let reply = match self.solved.scheme.slope {
                 // Of degree 1 the slope is the increment over the pressure, to the last digit.
-                Slope::Proportional => self.evaluate(driven, point, (false, false))?,
-                Slope::Derivative | Slope::Difference => self.linearise_listed(driven, point, false)?,
+                Slope::Proportional => self.evaluate(driven, point, Tractions::OfContact, false)?,
+                Slope::Derivative | Slope::Difference => self.linearise_listed(driven, point, Tractions::OfContact)?,
             };
             match reply {
                 Reply::Good if self.solved.scheme.slope == Slope::Proportional => {

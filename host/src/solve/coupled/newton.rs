@@ -1,7 +1,7 @@
 //! Implicit stages of any other law: a safeguarded Newton method on the pressure.
 
 use super::segment::Driven;
-use super::system::System;
+use super::system::{System, Tractions};
 use crate::contact::{Control, Diagonal};
 use crate::integrator::Reply;
 use crate::plan::Slope;
@@ -102,7 +102,7 @@ impl System<'_> {
             // What the law says at the pressure that was found, against what the line says.
             let pressure = std::mem::take(&mut self.pressure);
             self.list_reached(&pressure, open);
-            let reply = self.evaluate(driven, &pressure, (false, true));
+            let reply = self.evaluate(driven, &pressure, Tractions::WithNeighbours, false);
             self.pressure = pressure;
             if let cut @ Reply::Cut(_) = reply? {
                 return Ok(cut);
@@ -135,7 +135,7 @@ impl System<'_> {
     /// Increments and slopes of the law at the points of linearisation, for the cells that wear there.
     fn linearise(&mut self, driven: Driven, point: &[f64], open: bool) -> Result<Reply, PointError> {
         self.list_reached(point, open);
-        self.linearise_listed(driven, point, true)
+        self.linearise_listed(driven, point, Tractions::WithNeighbours)
     }
 
     /// Increments and slopes of the law at the cells in `room.cells` under pressures `[cells]`; see [`System::evaluate`].
@@ -143,15 +143,15 @@ impl System<'_> {
         &mut self,
         driven: Driven,
         point: &[f64],
-        reaching: bool,
+        tractions: Tractions,
     ) -> Result<Reply, PointError> {
         if self.solved.scheme.slope == Slope::Derivative {
-            if let cut @ Reply::Cut(_) = self.evaluate(driven, point, (true, reaching))? {
+            if let cut @ Reply::Cut(_) = self.evaluate(driven, point, tractions, true)? {
                 return Ok(cut);
             }
         } else {
             let smallest = DIFFERENCE * 1e-3 * self.probe_pressure();
-            if let cut @ Reply::Cut(_) = self.evaluate(driven, point, (false, reaching))? {
+            if let cut @ Reply::Cut(_) = self.evaluate(driven, point, tractions, false)? {
                 return Ok(cut);
             }
             let increment = self.law.increment.clone();

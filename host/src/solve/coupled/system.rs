@@ -70,6 +70,15 @@ pub(super) struct System<'s> {
     pub(super) stands: bool,
 }
 
+/// Cells that nodal tractions drive the law at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tractions {
+    /// Those in contact.
+    OfContact,
+    /// Their neighbours too, as in a stage: see [`System::list_reached`].
+    WithNeighbours,
+}
+
 /// Part of the wear of a stage, times the tolerance of the run, that the contact of the stage may be wrong by where only its
 /// wear is used.
 const LOOSE: f64 = 0.1;
@@ -229,27 +238,24 @@ impl System<'_> {
         self.room.traction = traction;
     }
 
-    /// Evaluates the law at the cells in `room.cells` under pressures `[cells]` for the substep's duration. `reaching`:
-    /// nodal tractions reach the neighbours of the cells in contact.
+    /// Evaluates the law at the cells in `room.cells` under pressures `[cells]` for the substep's duration.
     pub(super) fn evaluate(
         &mut self,
         driven: Driven,
         pressure: &[f64],
-        (slope, reaching): (bool, bool),
+        tractions: Tractions,
+        slope: bool,
     ) -> Result<Reply, PointError> {
         let reads_traction = self.plan.fields.contains(Field::NodalTraction);
         let smoothed = self.smoothed();
         let mut traction = std::mem::take(&mut self.room.traction);
         if smoothed || reads_traction {
             traction.resize(pressure.len(), 0.0);
-            match self.solved.elastic {
-                Elastic::HalfSpace { .. } if reaching => {
-                    corners_and_back(&self.solved.cells, self.periodic(), pressure, &mut traction)
-                }
-                Elastic::HalfSpace { .. } => {
-                    nodal_traction(&self.solved.cells, self.periodic(), pressure, &mut traction)
-                }
-                Elastic::Foundation(_) => traction.copy_from_slice(pressure),
+            let (cells, periodic) = (&self.solved.cells, self.periodic());
+            match (self.solved.elastic, tractions) {
+                (Elastic::Foundation(_), _) => traction.copy_from_slice(pressure),
+                (_, Tractions::WithNeighbours) => corners_and_back(cells, periodic, pressure, &mut traction),
+                (_, Tractions::OfContact) => nodal_traction(cells, periodic, pressure, &mut traction),
             }
         }
         let driving = if smoothed { &traction[..] } else { pressure };
@@ -327,7 +333,7 @@ impl System<'_> {
         let open = self.evaluator.descriptor().wants_open_points();
         Self::list(&mut self.room.cells, &self.pressure, open);
         let pressure = std::mem::take(&mut self.pressure);
-        let reply = self.evaluate(driven, &pressure, (false, false));
+        let reply = self.evaluate(driven, &pressure, Tractions::OfContact, false);
         self.pressure = pressure;
         let reply = reply?;
         if reply == Reply::Good {
