@@ -8,8 +8,8 @@ pub struct Bad {
     pub name: &'static str,
     /// Runs in every evaluation.
     evaluated: &'static str,
-    /// Further functions.
-    beside: &'static str,
+    /// Runs while the library is loaded.
+    at_load: &'static str,
     /// Time for the check, ms: short for what never ends.
     pub timeout: u64,
     /// How its check may end: `blocked` stands for one that failed while the library was loaded.
@@ -27,7 +27,12 @@ const fn evaluated(
     timeout: u64,
     outcomes: &'static [&'static str],
 ) -> Bad {
-    Bad { name, evaluated, beside: "", timeout, outcomes }
+    Bad { name, evaluated, at_load: "", timeout, outcomes }
+}
+
+/// A law that breaks out while its library is loaded, in a constructor with this body.
+const fn at_load(name: &'static str, at_load: &'static str, timeout: u64, outcomes: &'static [&'static str]) -> Bad {
+    Bad { name, evaluated: "", at_load, timeout, outcomes }
 }
 
 /// The laws, each with one way to break out.
@@ -53,20 +58,8 @@ pub const BAD: &[Bad] = &[
         SHORT,
         LATE,
     ),
-    Bad {
-        name: "aborts_at_load",
-        evaluated: "",
-        beside: "__attribute__((constructor)) static void opened(void) { hide(); abort(); }",
-        timeout: LONG,
-        outcomes: CRASHED,
-    },
-    Bad {
-        name: "hangs_at_load",
-        evaluated: "",
-        beside: "__attribute__((constructor)) static void opened(void) { hide(); block(); for (;;) { } }",
-        timeout: SHORT,
-        outcomes: LATE,
-    },
+    at_load("aborts_at_load", "hide(); abort();", LONG, CRASHED),
+    at_load("hangs_at_load", "hide(); block(); for (;;) { }", SHORT, LATE),
 ];
 
 const SOURCE: &str = r#"
@@ -107,7 +100,7 @@ static void hide_and_run(void) {
     _exit(1);
 }
 static void *used[] __attribute__((used)) = {(void *)block, (void *)spin, (void *)deep, (void *)hide, (void *)hide_and_run};
-BESIDE
+__attribute__((constructor)) static void opened(void) { AT_LOAD }
 WL_POINT {
     out->increment = 0.5 * c->k * in->pressure * in->slip;
     EVALUATED
@@ -128,7 +121,7 @@ pub fn library(folder: &Path, bad: &Bad) -> PathBuf {
 /// Builds a law's library; the program's own `build` would load it.
 pub fn build(folder: &Path, bad: &Bad) {
     let source = folder.join(format!("{}.c", bad.name));
-    let text = SOURCE.replace("BESIDE", bad.beside).replace("EVALUATED", bad.evaluated);
+    let text = SOURCE.replace("AT_LOAD", bad.at_load).replace("EVALUATED", bad.evaluated);
     let text = text.replace("LONG", &long());
     std::fs::write(&source, text).expect("the folder can be written");
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
