@@ -16,3 +16,5 @@ mod hardening;
 mod program;
 #[path = "conformance_faulty/proof.rs"]
 mod proof;
+#[path = "support/random.rs"]
+mod random;

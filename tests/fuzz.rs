@@ -8,6 +8,8 @@
 
 #[path = "fuzz/mutator.rs"]
 mod mutator;
+#[path = "support/random.rs"]
+mod random;
 #[cfg(target_os = "linux")]
 #[path = "fuzz/stateful.rs"]
 mod stateful;
@@ -20,7 +22,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use mutator::{Random, mutated};
+use mutator::mutated;
+use random::Random;
 use targets::{TARGETS, seeds};
 use watch::Watch;
 
@@ -69,7 +72,7 @@ fn fuzz(target: targets::Target) -> (usize, usize) {
     for (at, bytes) in known.iter().enumerate() {
         good += usize::from(watch.over(|| attempt(target, bytes, &format!("seed input {at}"))));
     }
-    let mut random = Random::new(seed());
+    let mut random = Random(seed());
     let end = time().map(|time| Instant::now() + time);
     let (mut count, mut accepted) = (0, 0);
     while end.map_or(count < SHORT, |end| Instant::now() < end) {

@@ -6,13 +6,14 @@ mod sources;
 use std::path::Path;
 
 /// Each top-level module and the others of the crate that it may name.
-const MAY_USE: [(&str, &[&str]); 16] = [
+const MAY_USE: [(&str, &[&str]); 17] = [
     ("scene", &[]),
     ("reference", &[]),
-    ("contact", &[]),
+    ("splitmix", &[]),
+    ("contact", &["splitmix"]),
     ("record", &[]),
     ("law", &[]),
-    ("conformance", &["law", "reference"]),
+    ("conformance", &["law", "reference", "splitmix"]),
     ("apdl", &["scene"]),
     ("integrator", &["law", "contact"]),
     ("stability", &["law", "contact"]),
@@ -30,6 +31,7 @@ const ALL_BUT_CLI: &[&str] = &[
     "scene",
     "reference",
     "conformance",
+    "splitmix",
     "contact",
     "record",
     "law",

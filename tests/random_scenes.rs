@@ -14,6 +14,8 @@ mod feasible;
 mod laws;
 #[path = "random_scenes/ploughing.rs"]
 mod ploughing;
+#[path = "support/random.rs"]
+mod random;
 #[path = "support/solved.rs"]
 mod solved;
 #[path = "random_scenes/units.rs"]

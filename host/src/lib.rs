@@ -19,6 +19,7 @@ pub mod record;
 pub mod reference;
 pub mod scene;
 pub mod solve;
+mod splitmix;
 pub mod stability;
 pub mod templates;
 

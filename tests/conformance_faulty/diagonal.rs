@@ -8,6 +8,7 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 
 use super::fixtures::{Faulty, faulty, library, side_by_side, sound, suspicious};
+use super::random::Random;
 
 /// Laws that meet the whole tester when not all of them do.
 const PART: usize = 10;
@@ -58,11 +59,11 @@ pub fn part() -> Vec<Faulty> {
     if all_wanted() {
         return laws;
     }
-    let mut seed: u64 = std::env::var("WEARLAW_FAULTY_SEED").ok().and_then(|text| text.parse().ok()).unwrap_or(1);
+    let seed = std::env::var("WEARLAW_FAULTY_SEED").ok().and_then(|text| text.parse().ok()).unwrap_or(1);
+    let mut random = Random(seed);
     let mut chosen = Vec::new();
     while chosen.len() < PART {
-        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        chosen.push(laws.swap_remove((seed >> 33) as usize % laws.len()));
+        chosen.push(laws.swap_remove(random.below(laws.len())));
     }
     chosen
 }

@@ -1,27 +1,7 @@
 //! Makes new inputs from known ones: flipped bits, other bytes, pieces cut, doubled, moved in from another input, words
 //! that the formats know, numbers at the ends of their ranges.
 
-/// Random numbers, the same for the same seed (a linear congruence, its upper bits).
-#[derive(Clone, Debug)]
-pub struct Random(u64);
-
-impl Random {
-    /// From a seed.
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d)
-    }
-
-    /// A number below `end`; 0 if `end` is 0.
-    pub fn below(&mut self, end: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % end.max(1)
-    }
-
-    /// A number from 0 to 1.
-    pub fn part(&mut self) -> f64 {
-        self.below(1 << 30) as f64 / f64::from(1 << 30)
-    }
-}
+use super::random::Random;
 
 /// Words of the formats, and numbers that are hard to take.
 const WORDS: [&[u8]; 44] = [
@@ -124,7 +104,7 @@ fn number(bytes: &mut Vec<u8>, random: &mut Random) {
 fn mutations_are_the_same_for_a_seed_and_differ_from_their_source() {
     let known = vec![b"time,point,pressure\n0,1,2.5\n".to_vec(), b"[law]\nuse = \"archard\"\n".to_vec()];
     let make = |seed| {
-        let mut random = Random::new(seed);
+        let mut random = Random(seed);
         (0..200).map(|_| mutated(&known, &mut random)).collect::<Vec<_>>()
     };
     assert_eq!(make(7), make(7));

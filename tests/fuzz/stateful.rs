@@ -12,7 +12,7 @@ use wearlaw::law::{
     LawInstance, LoadOptions, OutputItem, Outputs, Plugin, Source, Values,
 };
 
-use super::mutator::Random;
+use super::random::Random;
 use super::watch::Watch;
 
 /// Rounds of the short part, and operations in a round.
@@ -199,7 +199,7 @@ fn round(library: &Path, random: &mut Random, watch: &Watch) {
                             scope.spawn(move || {
                                 let plugin = if *is_archard { archard() } else { open() };
                                 let fresh = plugin.laws()[0].create(None).expect("it has no objections");
-                                call(law.as_ref(), &fresh, &mut Random::new(seed + thread));
+                                call(law.as_ref(), &fresh, &mut Random(seed + thread));
                             });
                         }
                     }
@@ -220,7 +220,7 @@ fn round(library: &Path, random: &mut Random, watch: &Watch) {
 pub fn fuzz(seed: u64, time: Option<Duration>, watch: &Watch) -> usize {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let library = library(folder.path());
-    let mut random = Random::new(seed);
+    let mut random = Random(seed);
     let end = time.map(|time| Instant::now() + time);
     let mut rounds = 0;
     while end.map_or(rounds < ROUNDS, |end| Instant::now() < end) {

@@ -2,38 +2,7 @@
 
 use std::fmt::Write as _;
 
-/// The splitmix64 generator (Steele, Lea and Flood, OOPSLA 2014).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn power(&mut self, low: f64, high: f64) -> f64 {
-        10.0_f64.powf(self.between(low, high))
-    }
-
-    fn count(&mut self, below: u64) -> u64 {
-        self.next() % below
-    }
-
-    fn one<T: Copy>(&mut self, of: &[T]) -> T {
-        of[self.count(of.len() as u64) as usize]
-    }
-
-    fn chance(&mut self, part: f64) -> bool {
-        self.between(0.0, 1.0) < part
-    }
-}
+use crate::random::Random;
 
 /// The laws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,7 +69,7 @@ pub fn draw(seed: u64, units: Units) -> Drawn {
     let flat = random.chance(0.5);
     let springs = random.chance(0.35);
     let periodic = !springs && random.chance(0.4);
-    let counts = [0, 1].map(|_| 4 + random.count(if flat { 29 } else { 9 }) as usize);
+    let counts = [0, 1].map(|_| 4 + random.below(if flat { 29 } else { 9 }));
     let counts = if flat { [counts[0], 1] } else { counts };
     let mut files = Vec::new();
     let surface = surface(random, units, flat, counts, &mut files);
@@ -109,7 +78,7 @@ pub fn draw(seed: u64, units: Units) -> Drawn {
     let by_load = random.chance(0.7);
     // Pressure over modulus; wear over length in one load step.
     let (pressed, worn) = (random.power(-6.0, -3.0), random.power(-8.0, -1.5));
-    let law = match random.count(10) {
+    let law = match random.below(10) {
         0 => Law::RunningIn,
         1 => Law::Work,
         2 => Law::Ploughing,
@@ -125,13 +94,13 @@ pub fn draw(seed: u64, units: Units) -> Drawn {
     let beyond_limit = if method == "explicit-euler" { random.one(&["refuse", "substep", "run"]) } else { "" };
     let fixed = random.chance(0.6) || averaged;
     let post = random.chance(0.12);
-    let scaling = match random.count(10) {
+    let scaling = match random.below(10) {
         0 => "cycle",
         1 if fixed && !post => "auto",
         _ => "none",
     };
     let accuracy = match fixed {
-        true => format!("substeps = {}", 1 + random.count(6)),
+        true => format!("substeps = {}", 1 + random.below(6)),
         false => {
             format!("tolerance = {:e}", random.one(if law == Law::RunningIn { &[1e-2] } else { &[1e-3, 1e-2, 3e-2] }))
         }
@@ -200,7 +169,7 @@ fn surface(
     counts: [usize; 2],
     files: &mut Vec<(String, String)>,
 ) -> String {
-    match random.count(7) {
+    match random.below(7) {
         0 => format!("shape = \"sphere\"\nradius = {:e}", random.power(0.0, 2.0) * length),
         1 => format!("shape = \"cylinder\"\nradius = {:e}", random.power(0.0, 2.0) * length),
         2 => format!("shape = \"cone\"\nangle = {:e}", random.power(-1.0, 1.0)),
@@ -208,7 +177,7 @@ fn surface(
         4 => format!(
             "shape = \"wavy\"\namplitude = {:e}\nwaves = {}",
             random.power(-4.0, -2.0) * length,
-            pair(flat, 1, random.count(2))
+            pair(flat, 1, random.below(2))
         ),
         5 => {
             let lowest = random.power(-4.0, -2.0);
@@ -226,7 +195,7 @@ fn surface(
             "shape = \"rough\"\nhurst = {:.3}\nrms_slope = {:e}\nroll_off = 1.0\ncut_off = 2.0\nseed = {}",
             random.between(0.2, 1.0),
             random.power(-3.0, -1.0),
-            random.count(1000)
+            random.below(1000)
         ),
     }
 }
@@ -287,14 +256,14 @@ fn steps(
     let (key, unit) = if by_load { ("load", force) } else { ("approach", length) };
     let mut text = String::new();
     if cycles {
-        let _ = writeln!(text, "[[cycle]]\ncount = {}", 1 + random.count(20));
+        let _ = writeln!(text, "[[cycle]]\ncount = {}", 1 + random.below(20));
     }
-    for index in 0..1 + random.count(3) {
+    for index in 0..1 + random.below(3) {
         let value = random.between(0.3, 1.0) * if by_load { pressed } else { random.power(-4.0, -2.5) };
         let head = if cycles { "[[cycle.step]]" } else { "[[step]]" };
         let _ = writeln!(text, "{head}\nduration = {time:e}\n{key} = {:e}", value * unit);
         let ramps = scaling != "auto" && !(cycles && index == 0);
-        match random.count(8) {
+        match random.below(8) {
             0 => {
                 let _ = writeln!(text, "stroke = {:e}\nfrequency = {:e}", 0.25 * length, 2.0 / time);
             }

@@ -1,6 +1,8 @@
 //! Random numbers that are the same on every machine for the same seed.
 
-/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): one word of state, good enough to pick inputs.
+use crate::splitmix::{STEP, mixed};
+
+/// SplitMix64: one word of state, good enough to pick inputs.
 #[derive(Clone, Debug)]
 pub(crate) struct Random(u64);
 
@@ -11,16 +13,14 @@ impl Random {
         let hash = stream
             .bytes()
             .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3));
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ hash)
+        Self(seed.wrapping_mul(STEP) ^ hash)
     }
 
     /// The next 64 bits.
     pub(crate) fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
+        let bits = mixed(self.0);
+        self.0 = self.0.wrapping_add(STEP);
+        bits
     }
 
     /// A number from 0, below 1.

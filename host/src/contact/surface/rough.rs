@@ -18,6 +18,7 @@ use rustfft::{FftDirection, FftPlannerScalar};
 
 use super::super::Cells;
 use super::SurfaceError;
+use crate::splitmix::mixed;
 
 /// What roughness there is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,13 +155,4 @@ impl Spectrum {
 /// Size in x over size in y.
 fn aspect(cells: &Cells) -> f64 {
     (cells.counts[0] as f64 * cells.spacing[0]) / (cells.counts[1] as f64 * cells.spacing[1])
-}
-
-/// One step of SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, OOPSLA 2014): the state is advanced and mixed, so that
-/// neighbouring states give unrelated bits.
-fn mixed(state: u64) -> u64 {
-    let z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
