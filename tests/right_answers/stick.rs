@@ -4,13 +4,18 @@ use crate::solved::Solved;
 use crate::{norm, run};
 
 fn limit(cells: usize) -> Solved {
+    limit_in(cells, 1e7, 1)
+}
+
+/// Reached in so many equal steps of a slip that lasts so long.
+fn limit_in(cells: usize, duration: f64, substeps: u32) -> Solved {
     run(&format!(
         "[law]\nuse = \"archard\"\nconstants = [1e-14, 1.0, 1.0, 1.0]\n\
          [contact]\nmodel = \"halfspace\"\nmodulus = 115e9\n\
          [grid]\nsize = [2.8e-4, 2.8e-4]\ncells = [{cells}, {cells}]\n\
          [surface]\nshape = \"sphere\"\nradius = 10e-3\ncenter = [1.4e-4, 1.4e-4]\n\
-         [[step]]\nduration = 1e7\napproach = 1e-6\nvelocity = 1.0\nstick = 5e-5\n\
-         [integrator]\nmethod = \"implicit-euler\"\nsubsteps = 1\n[reference]\nkind = \"stick-limit\"\n"
+         [[step]]\nduration = {duration:e}\napproach = 1e-6\nvelocity = 1.0\nstick = 5e-5\n\
+         [integrator]\nmethod = \"implicit-euler\"\nsubsteps = {substeps}\n[reference]\nkind = \"stick-limit\"\n"
     ))
 }
 
@@ -28,6 +33,19 @@ fn one_step_reaches_the_limit() {
     let slipping = |cell: usize| ((cell % 56) as f64 - 27.5).hypot((cell / 56) as f64 - 27.5) * 5e-6 >= 5e-5;
     let carried = (0..56 * 56).filter(|cell| slipping(*cell)).map(|cell| solved.record.pressure[cell]).sum::<f64>();
     assert!(carried < 1e-4 * solved.record.pressure.iter().sum::<f64>(), "{carried:e}");
+}
+
+/// There the slipping cells carry so little that the complementarity error alone would take the pressures of the step
+/// before, and with them all of its wear once more.
+#[test]
+fn further_steps_of_any_length_wear_nothing_more() {
+    let once = limit(28);
+    for (duration, substeps) in [(1e7, 5), (1e10, 2), (1e14, 5), (1e25, 2), (1e25, 5)] {
+        let again = limit_in(28, duration, substeps);
+        let all = once.record.wear.iter().zip(&again.record.wear);
+        let most = all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(most < 1e-5 * 2.965e-7, "{substeps} steps, {duration:e} s: {most:e}");
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::residual;
 use super::stencil::Stencil;
 
 /// How far above the error that is enough the residual may be on average for the error to be looked at.
-const NEAR: f64 = 8.0;
+pub const NEAR: f64 = 8.0;
 
 /// When a descent has done enough.
 #[derive(Clone, Copy, Debug)]

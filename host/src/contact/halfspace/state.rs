@@ -1,5 +1,6 @@
 //! What pressures amount to, and the ways from one to better ones that need no transform.
 
+use super::descend::NEAR;
 use super::passes::{change, each_chunk, sum};
 use super::patch::Patch;
 
@@ -25,6 +26,8 @@ pub struct State {
     pub energy: f64,
     /// Sum of p |u / 2 + gap|.
     pub energies: f64,
+    /// What is open, or overlaps, where the local compliance takes most of the displacement; see [`soft`].
+    pub soft: f64,
 }
 
 impl State {
@@ -64,8 +67,13 @@ impl State {
             height: a.height.max(b.height),
             energy: a.energy + b.energy,
             energies: a.energies + b.energies,
+            soft: 0.0,
         };
-        parts.into_iter().fold(State { lowest: f64::INFINITY, ..State::default() }, add)
+        let mut state = parts.into_iter().fold(State { lowest: f64::INFINITY, ..State::default() }, add);
+        if !patch.local.is_empty() {
+            state.soft = soft(patch, pressure, u, state.approach(patch));
+        }
+        state
     }
 
     /// The approach that goes with it.
@@ -75,12 +83,33 @@ impl State {
 
     /// The complementarity error, as a length.
     pub fn error(&self, patch: &Patch<'_>) -> f64 {
+        let soft = self.soft / NEAR;
         if patch.sum.is_some() {
-            return self.approach(patch) - self.lowest;
+            return (self.approach(patch) - self.lowest).max(soft);
         }
         let mean = if self.total > 0.0 { self.weighted[1] / self.total } else { 0.0 };
-        mean + (-self.lowest).max(0.0)
+        (mean + (-self.lowest).max(0.0)).max(soft)
     }
+}
+
+/// Root mean square of the gap, less the approach, over the cells with pressure, each counting by the part of its own
+/// displacement that is the local compliance's.
+///
+/// An implicit step wears b p off a cell. Where b is far above the elastic compliance p is next to nothing, and so is its
+/// part in the complementarity error, however wrong the wear is.
+fn soft(patch: &Patch<'_>, pressure: &[f64], u: &[f64], approach: f64) -> f64 {
+    let own = patch.kernel.mode([1, 0], [2, 1]);
+    let parts = each_chunk(patch.threads, pressure.len(), |range| {
+        let (mut squares, mut count) = (0.0, 0.0);
+        for cell in range.filter(|cell| pressure[*cell] > 0.0) {
+            let local = patch.local(cell);
+            squares += (local / (local + own) * (patch.gap[cell] + u[cell] - approach)).powi(2);
+            count += 1.0;
+        }
+        (squares, count)
+    });
+    let (squares, count) = parts.into_iter().fold((0.0, 0.0_f64), |a, b| (a.0 + b.0, a.1 + b.1));
+    if count > 0.0 { (squares / count).sqrt() } else { 0.0 }
 }
 
 /// The least of the sums of two arrays.
