@@ -48,7 +48,7 @@ fn bits(record: &Record<SolveError>) -> String {
         record.wear,
         record.pressure,
         record.state,
-        record.estimated_error,
+        record.estimated,
         record.largest_step,
         record.warnings,
         record.profile,

@@ -218,3 +218,74 @@ fn an_interrupted_run_ends_with_130_and_keeps_what_was_done() {
     assert_eq!(ended.code, 130, "{}", ended.stderr);
     assert!(!here.path().join("scene.out").exists());
 }
+
+#[test]
+fn the_page_of_a_run_holds_everything_and_needs_nothing() {
+    let here = folder();
+    write(here.path(), "scene.toml", SCENE);
+    write(here.path(), "history.csv", HISTORY);
+    let plain = run(here.path(), &["run", "scene.toml", "--out", "plain"]);
+    assert!(plain.code == 0 && !here.path().join("plain/report.html").exists(), "{}", plain.stderr);
+    let ended = run(here.path(), &["run", "scene.toml", "--html", "--set", "title=A<B & \"C\""]);
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let page = std::fs::read_to_string(here.path().join("scene.out/report.html")).unwrap();
+    for part in [
+        "<h1>A&lt;B &amp; &quot;C&quot;</h1>",
+        "Largest wear depth",
+        "4.5×10⁻⁷ m",
+        "Run time",
+        "<svg",
+        "temperatures",
+        "SHA-256 of the history",
+        "H = 10000000000, K = 0.0001",
+        "a prescribed pressure has no stability limit",
+    ] {
+        assert!(page.contains(part), "{part} in {page}");
+    }
+    for part in ["<script", "src=", "href=", "url(", "@import"] {
+        assert!(!page.contains(part), "{part}");
+    }
+    for element in
+        ["h1", "h2", "dl", "dt", "dd", "div", "table", "tr", "td", "ul", "li", "figure", "svg", "details", "main"]
+    {
+        let (begins, ends) = (format!("<{element}"), format!("</{element}>"));
+        let begun = page.match_indices(&begins).filter(|(at, _)| page[at + begins.len()..].starts_with([' ', '>']));
+        assert_eq!(begun.count(), page.matches(&ends).count(), "{element}");
+    }
+}
+
+#[test]
+fn the_error_of_steps_and_grid_is_estimated_where_it_is_asked_for() {
+    let here = folder();
+    let scene = |more: &str| {
+        format!(
+            "[law]\nuse = \"archard\"\nconstants = [1e-4, 1e10]\n[contact]\nmodel = \"foundation\"\ndimension = 2\n\
+             stiffness = 1e13\n[grid]\nsize = [6e-4]\ncells = [40]\n[surface]\nshape = \"cylinder\"\nradius = 1e-2\n\
+             [[step]]\nduration = 100\nload = 1000\nvelocity = 1\n[integrator]\nsubsteps = 20\n{more}"
+        )
+    };
+    write(here.path(), "plain.toml", &scene(""));
+    write(here.path(), "asked.toml", &scene("[output]\nerror_estimate = true\n"));
+    let plain = json(&run(here.path(), &["run", "plain.toml", "--json"]).stdout);
+    let asked = run(here.path(), &["run", "asked.toml", "--json"]);
+    let asked = json(&asked.stdout);
+    assert!(plain["error"].is_null(), "fixed substeps say nothing of themselves: {}", plain["error"]);
+    let estimate = &asked["error"]["estimate"];
+    for part in ["steps", "grid", "total"] {
+        for norm in ["wear_l2_relative", "pressure_l2_relative"] {
+            let value = estimate[part][norm].as_f64().unwrap_or_else(|| panic!("{part}.{norm} in {estimate}"));
+            assert!(value > 0.0 && value < 0.1, "{part}.{norm}: {value}");
+        }
+    }
+    let sum = |norm: &str| estimate["steps"][norm].as_f64().unwrap() + estimate["grid"][norm].as_f64().unwrap();
+    assert_eq!(estimate["total"]["wear_l2_relative"], sum("wear_l2_relative"));
+    assert_eq!(asked["error"]["value"], estimate["total"]["wear_l2_relative"]);
+    let summary = run(here.path(), &["run", "asked.toml", "--set", "integrator.substeps=1"]).stdout;
+    assert!(
+        summary.contains("estimated error") && summary.contains("one substep per load step cannot be halved"),
+        "{summary}"
+    );
+    let stopped = run(here.path(), &["run", "asked.toml", "--set", "stop.wear_depth=1e-7", "--json"]);
+    let without = json(&stopped.stdout)["error"].to_string();
+    assert!(stopped.code == 0 && (without == "null" || without.contains("ended early")), "{without}");
+}

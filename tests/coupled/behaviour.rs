@@ -44,7 +44,7 @@ fn tolerance_is_kept_against_many_more_steps() {
         let rest = format!("[integrator]\ntolerance = {tolerance}\n[reference]\nkind = \"self\"\n");
         let solved = ball("", "", LOADED, &rest).solve(&archard());
         let (error, estimate) =
-            (solved.error.expect("a reference"), solved.record.estimated_error.expect("an estimate"));
+            (solved.error.expect("a reference"), solved.record.estimated.wear_l2_relative.expect("an estimate"));
         let asked: f64 = tolerance.parse().expect("a number");
         assert!(error.value <= asked && estimate <= asked, "{tolerance}: {} {estimate}", error.value);
         assert!(error.by_field["pressure_l2_relative"] < 0.1, "{:?}", error.by_field);

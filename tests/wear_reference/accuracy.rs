@@ -78,7 +78,7 @@ fn the_error_stays_within_the_tolerance_asked_for() {
         for case in cases {
             let solved = case.solve(&archard());
             let error = solved.error.expect("a reference was named").value;
-            let estimate = solved.record.estimated_error.expect("an estimate");
+            let estimate = solved.record.estimated.wear_l2_relative.expect("an estimate");
             assert!(error <= tolerance && estimate <= tolerance, "{tolerance:e}: {error:e}, estimated {estimate:e}");
         }
     }

@@ -46,7 +46,7 @@ fn error_control_meets_its_tolerance_with_a_memory() {
         for solved in [Some(smooth), rough].into_iter().flatten() {
             let wear = &solved.record.wear;
             let error = (wear[0] - exact[0]).hypot(wear[1] - exact[1]) / exact[0].hypot(exact[1]);
-            let estimate = solved.record.estimated_error.expect("an estimate");
+            let estimate = solved.record.estimated.wear_l2_relative.expect("an estimate");
             assert!(error <= tolerance && estimate <= tolerance, "{tolerance:e}: {error:e}, estimated {estimate:e}");
         }
     }

@@ -105,8 +105,11 @@ pub(super) struct RunArguments {
     /// `output.checkpoint = SECONDS` writes them while it goes on, for runs that are killed.
     #[arg(long)]
     pub(super) resume: bool,
+    /// Also write report.html: summary, plan, picture and provenance in one file that needs nothing else
+    #[arg(long)]
+    pub(super) html: bool,
     /// List the built-in exact answers for [reference] kind, and run nothing
-    #[arg(long, conflicts_with_all = ["scene", "law", "overrides", "isolate", "deadline", "out", "threads", "resume"])]
+    #[arg(long, conflicts_with_all = ["scene", "law", "overrides", "isolate", "deadline", "out", "threads", "resume", "html"])]
     pub(super) references: bool,
 }
 

@@ -13,6 +13,7 @@ mod description;
 mod guard;
 mod inspect;
 mod interrupt;
+mod machine;
 mod new;
 mod opening;
 mod plan;

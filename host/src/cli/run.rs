@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::args::{RunArguments, SceneArguments};
 use super::console::Console;
 use super::interrupt::Interrupt;
+use super::machine;
 use super::opening::{self, OpenedLaw};
 use super::progress::Progress;
 use super::restart;
@@ -16,14 +17,14 @@ use super::writing::{Comparison, Listener};
 use crate::error::Error;
 use crate::exit_code::ExitCode;
 use crate::output::{
-    FieldFormat, FieldSeries, Figure, Keeper, LawReport, Report, StabilityReport, WholeFolder, check_folder,
-    write_history, write_plot,
+    FieldFormat, FieldSeries, Figure, Keeper, LawReport, Report, RunPage, StabilityReport, WholeFolder, check_folder,
+    write_history, write_plot, write_run_page,
 };
 use crate::plan::Plan;
 use crate::record::{End, HistoryRow, Record};
 use crate::reference::NamedReference;
 use crate::scene::{Format, Override, Scene};
-use crate::solve::{ErrorNorm, Run, SolveError};
+use crate::solve::{ErrorNorm, Estimate, Run, SolveError};
 
 /// What a run is told.
 #[derive(Debug, Clone)]
@@ -38,6 +39,8 @@ pub(super) struct Settings {
     pub(super) threads: Option<usize>,
     /// Whether it goes on from a checkpoint.
     pub(super) resume: bool,
+    /// Whether a page is written.
+    pub(super) html: bool,
 }
 
 pub(super) fn command(console: &Console, arguments: RunArguments) -> Result<ExitCode, Error> {
@@ -51,6 +54,7 @@ pub(super) fn command(console: &Console, arguments: RunArguments) -> Result<Exit
                 shared: arguments.shared,
                 threads: arguments.threads.map(usize::from),
                 resume: arguments.resume,
+                html: arguments.html,
             },
         ),
     }
@@ -70,7 +74,7 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
         console.note(&format!("no checkpoint in {}: the run begins at its start", settings.out.display()));
     }
     let folder = WholeFolder::begin(&settings.out)?;
-    let mut keeper = Keeper::new(folder, identity, plan.output.checkpoint);
+    let mut keeper = Keeper::new(folder, identity.clone(), plan.output.checkpoint);
     let wanted = !plan.output.fields.is_empty() && !plan.output.formats.is_empty();
     let formats: Vec<FieldFormat> = plan.output.formats.iter().map(|format| field_format(*format)).collect();
     let mut fields = wanted.then(|| FieldSeries::begin(&keeper.path().join("fields"), &formats)).transpose()?;
@@ -111,13 +115,24 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
         Ok(error) => (error, None),
         Err(failure) => (None, Some(failure)),
     };
-    let report = report(&scene, &plan, &law, settings, &record, error.as_ref())?;
+    let mut watch = Comparison { interrupt: &interrupt, progress: Progress::start(console) };
+    let estimate = match plan.output.error_estimate && !interrupt.asked() {
+        true => run.estimate(&record, &mut watch),
+        false => Estimate::of_steps(&record),
+    };
+    drop(watch);
+    let report = report(&scene, &plan, &law, settings, &record, (error.as_ref(), &estimate))?;
     write_history(&record.history, &keeper.path().join("history.csv"))?;
     let title = scene.title.clone().unwrap_or_else(|| settings.scene.display().to_string());
     let figure =
         Figure { title: &title, units: &record.units, history: &record.history, profile: record.profile.as_ref() };
     write_plot(&figure, &keeper.path().join("plot.svg"))?;
     report.write(&keeper.path().join("report.json"))?;
+    if settings.html {
+        let machine = machine::facts(settings.threads);
+        let page = RunPage { report: &report, figure, identity: &identity, machine: &machine };
+        write_run_page(&page, &keeper.path().join("report.html"))?;
+    }
     keeper.commit()?;
     let missed = error.as_ref().zip(plan.bar).filter(|(error, bar)| error.value.is_nan() || error.value > *bar);
     let (code, failure) = match record.end {
@@ -143,7 +158,7 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     } else if console.json {
         console.document(&report.document())?;
     } else if !console.quiet {
-        let summary = summary(title, &plan, &report, error.as_ref(), record.estimated_error, &settings.out);
+        let summary = summary(title, &plan, &report, (error.as_ref(), &estimate), &settings.out);
         console.result(&summary.text(console))?;
     }
     if record.stability.is_unstable {
@@ -175,26 +190,20 @@ fn report(
     law: &OpenedLaw,
     settings: &Settings,
     record: &Record<SolveError>,
-    error: Option<&ErrorNorm>,
+    (error, estimate): (Option<&ErrorNorm>, &Estimate),
 ) -> Result<Report, Error> {
     let descriptor = law.evaluator.descriptor();
     let table = &plan.material.constants;
     let json = |what: &str, value: Result<Value, serde_json::Error>| {
         value.map_err(|error| Error::Fault { what: format!("{what} as JSON: {error}") })
     };
-    let error = match (error, record.estimated_error) {
-        (Some(error), estimate) => {
+    let error = match error.cloned().or_else(|| estimate.norm()) {
+        Some(error) => {
             let mut value = json("the error", serde_json::to_value(error))?;
-            value["estimate"] = estimate.into();
+            value["estimate"] = json("the estimate", serde_json::to_value(estimate))?;
             value
         }
-        (None, Some(estimate)) => serde_json::json!({
-            "reference": "none; the integrator's own estimate",
-            "norm": "relative L2 error of the wear depth",
-            "value": estimate,
-            "by_field": {},
-        }),
-        (None, None) => Value::Null,
+        None => Value::Null,
     };
     Ok(Report {
         scene: json("the scene", serde_json::to_value(scene))?,
@@ -237,16 +246,12 @@ fn summary(
     title: String,
     plan: &Plan,
     report: &Report,
-    error: Option<&ErrorNorm>,
-    estimate: Option<f64>,
+    (error, estimate): (Option<&ErrorNorm>, &Estimate),
     out: &Path,
 ) -> Summary {
-    let shown = match (error, estimate) {
-        (Some(error), _) => Some((format!("against {}", error.reference), error.norm.clone(), error.value)),
-        (None, Some(estimate)) => {
-            Some(("estimated".to_owned(), "relative L2 error of the wear depth".to_owned(), estimate))
-        }
-        (None, None) => None,
+    let shown = match error {
+        Some(error) => Some((format!("against {}", error.reference), error.norm.clone(), error.value)),
+        None => estimate.norm().map(|error| (error.reference.replace("none; ", ""), error.norm, error.value)),
     };
     Summary {
         title,
@@ -256,6 +261,7 @@ fn summary(
         max_wear_depth: report.last.max_wear_depth,
         wear_volume: report.last.wear_volume,
         error: shown,
+        estimate: plan.output.error_estimate.then(|| estimate.clone()),
         run_time_s: report.cost.run_time_s,
         build_time_s: report.law.build_time_s,
         steps: report.cost.steps,

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use super::console::Console;
 use super::table::labelled;
 use super::unit_text::{elapsed, significant};
+use crate::record::Estimated;
+use crate::solve::Estimate;
 
 /// What a run came to, for people; `None` where the scene cannot give it.
 #[derive(Debug, Clone, Default)]
@@ -23,6 +25,8 @@ pub(super) struct Summary {
     pub(super) wear_volume: Option<f64>,
     /// How the error is known, in which norm, and how large it is.
     pub(super) error: Option<(String, String, f64)>,
+    /// Estimated errors of steps and grid, where the scene asks for them.
+    pub(super) estimate: Option<Estimate>,
     /// Wall time of the run without compiling the law, s.
     pub(super) run_time_s: f64,
     /// Wall time of compiling the law, s.
@@ -76,10 +80,35 @@ impl Summary {
             }
             None => line("run time", &run),
         }
+        if let Some(estimate) = &self.estimate {
+            line("estimated error", &estimated(estimate));
+        }
         line("work", &format!("{} steps, {} points evaluated", self.steps, self.points_evaluated));
         line("results", &self.out.display().to_string());
         text
     }
+}
+
+/// Norm by norm the error of steps and grid, and what is not in it.
+fn estimated(estimate: &Estimate) -> String {
+    let parts = |of: fn(&Estimated) -> Option<f64>| {
+        let short = |value: Option<f64>| value.map_or_else(|| "?".to_owned(), |value| significant(value, 2));
+        let (steps, grid) = (of(&estimate.steps), of(&estimate.grid));
+        match (of(&estimate.total), grid) {
+            (None, None) if steps.is_none() => None,
+            (Some(total), None) => Some(short(Some(total))),
+            (total, grid) => Some(format!("{} (steps {}, grid {})", short(total), short(steps), short(grid))),
+        }
+    };
+    let named = [
+        ("wear L2", parts(|of| of.wear_l2_relative)),
+        ("pressure L2", parts(|of| of.pressure_l2_relative)),
+        ("volume", parts(|of| of.volume_relative)),
+    ];
+    let known: Vec<String> = named.into_iter().filter_map(|(name, text)| Some(format!("{name} {}", text?))).collect();
+    let known = if known.is_empty() { "not known".to_owned() } else { known.join(", ") };
+    let without: String = estimate.without.iter().map(|what| format!("; without {what}")).collect();
+    format!("{known}, relative, in {}{without}", elapsed(estimate.time_s))
 }
 
 /// Six figures, without zeros that say nothing.

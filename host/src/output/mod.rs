@@ -7,6 +7,7 @@ pub mod checkpoint;
 pub mod csv;
 mod error;
 mod fields;
+mod html;
 mod little_endian;
 pub mod npz;
 pub mod plot;
@@ -18,6 +19,7 @@ pub use checkpoint::{CHECKPOINT, EarlierFields, EarlierFile, Keeper, Stored, rea
 pub use csv::write_history;
 pub use error::OutputError;
 pub use fields::{FieldFormat, FieldSeries, write_fields};
+pub use html::{Page, RunPage, write_run_page};
 pub use plot::{Figure, write_plot};
 pub use report::{LawReport, Report, StabilityReport};
 pub use whole::{WholeFolder, check_folder, write_file, write_file_synced};

@@ -10,7 +10,8 @@ mod panel;
 
 use super::{OutputError, write_file};
 use crate::record::{History, HistoryRow, Profile, Units};
-use axis::{Axis, number};
+use axis::Axis;
+pub(super) use axis::number;
 use curve::{Curve, Look};
 use panel::{Panel, Place, QUIET, Style, write};
 use plotters::coord::Shift;
@@ -48,8 +49,13 @@ pub struct Figure<'a> {
 /// # Errors
 /// `Drawing` when it cannot be drawn, `Io` when it cannot be written, both with the path.
 pub fn write_plot(figure: &Figure<'_>, path: &Path) -> Result<(), OutputError> {
-    let svg = draw(figure).map_err(|source| OutputError::Drawing { path: path.into(), source: source.into() })?;
+    let svg = plot_svg(figure, path)?;
     write_file(path, |to| to.write_all(svg.as_bytes()))
+}
+
+/// The figure as the text of an SVG file, for the file at `path`.
+pub(super) fn plot_svg(figure: &Figure<'_>, path: &Path) -> Result<String, OutputError> {
+    draw(figure).map_err(|source| OutputError::Drawing { path: path.into(), source: source.into() })
 }
 
 /// The figure as the text of an SVG file.

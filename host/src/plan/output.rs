@@ -43,6 +43,8 @@ pub struct OutputPlan {
     pub formats: Vec<Format>,
     /// Wall seconds between checkpoints; `None`: the last one only.
     pub checkpoint: Option<f64>,
+    /// Whether the errors of steps and grid are estimated by further runs.
+    pub error_estimate: bool,
 }
 
 /// What the result is compared with.
@@ -77,6 +79,7 @@ impl OutputPlan {
             every: scene.output.every.clone(),
             formats: scene.output.formats.clone(),
             checkpoint: scene.output.checkpoint,
+            error_estimate: scene.output.error_estimate,
         })
     }
 

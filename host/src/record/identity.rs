@@ -7,11 +7,12 @@ use serde_json::Value;
 
 /// Keys that may differ, with everything under them: they change nothing of what is computed, or only when it ends. What
 /// a file holds is compared by its contents and not by its name.
-const FREE: [&str; 11] = [
+const FREE: [&str; 12] = [
     "title",
     "stop",
     "reference",
     "output.checkpoint",
+    "output.error_estimate",
     "output.times",
     "law.use",
     "law.apdl",

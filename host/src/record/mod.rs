@@ -21,5 +21,5 @@ pub use geometry::{Geometry, Grid, PointIds, Points};
 pub use history::{History, HistoryRow};
 pub use identity::{Difference, Identity, LawIdentity};
 pub use profile::{Line, Profile};
-pub use run::{Cost, End, MemoryLine, Record, Stability};
+pub use run::{Cost, End, Estimated, MemoryLine, Record, Stability};
 pub use units::Units;

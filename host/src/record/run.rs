@@ -66,6 +66,31 @@ pub struct Stability {
     pub verdict: String,
 }
 
+/// Estimated relative errors at the end of a run, in the L2 norm over the points where they are of a field; `None`: not
+/// estimated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Estimated {
+    /// Of the wear depth.
+    pub wear_l2_relative: Option<f64>,
+    /// Of the contact pressure.
+    pub pressure_l2_relative: Option<f64>,
+    /// Of the worn volume.
+    pub volume_relative: Option<f64>,
+}
+
+impl Estimated {
+    /// Errors of two causes together; what one of them does not say is not known.
+    #[must_use]
+    pub fn plus(self, other: Estimated) -> Estimated {
+        let sum = |a: Option<f64>, b: Option<f64>| Some(a? + b?);
+        Estimated {
+            wear_l2_relative: sum(self.wear_l2_relative, other.wear_l2_relative),
+            pressure_l2_relative: sum(self.pressure_l2_relative, other.pressure_l2_relative),
+            volume_relative: sum(self.volume_relative, other.volume_relative),
+        }
+    }
+}
+
 /// What happened in a run; numbers in the scene's units.
 #[derive(Debug)]
 pub struct Record<E> {
@@ -77,8 +102,8 @@ pub struct Record<E> {
     pub pressure: Vec<f64>,
     /// State variables `[points * variables]`.
     pub state: Vec<f64>,
-    /// Estimated relative L2 error of the wear profile by the integrator; `None`: not estimated.
-    pub estimated_error: Option<f64>,
+    /// Errors of the steps in time, as the integrator estimates them on its way.
+    pub estimated: Estimated,
     /// Largest accepted step; time.
     pub largest_step: f64,
     /// What it cost.

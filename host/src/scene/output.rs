@@ -23,6 +23,9 @@ pub struct Output {
     /// Seconds of wall time between checkpoints; `None`: none but the last.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub checkpoint: Option<f64>,
+    /// Whether the errors of steps and grid are estimated by further runs.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub error_estimate: bool,
 }
 
 /// When fields are written.
@@ -77,7 +80,13 @@ impl Word for Format {
 
 impl Default for Output {
     fn default() -> Self {
-        Self { fields: Vec::new(), every: Every::End, formats: vec![Format::Csv, Format::Vtk], checkpoint: None }
+        Self {
+            fields: Vec::new(),
+            every: Every::End,
+            formats: vec![Format::Csv, Format::Vtk],
+            checkpoint: None,
+            error_estimate: false,
+        }
     }
 }
 
@@ -103,8 +112,8 @@ impl Serialize for Target {
 
 impl Output {
     pub(super) fn read(section: &Section<'_>, model: ModelKind) -> Result<Self, SceneError> {
-        section
-            .keys(&[("fields", &[]), ("every", &[]), ("times", &[]), ("formats", &[]), ("checkpoint", &[])], model)?;
+        let keys = ["fields", "every", "times", "formats", "checkpoint", "error_estimate"];
+        section.keys(&keys.map(|key| (key, &[][..])), model)?;
         section.at_most_one(&["every", "times"])?;
         let asked = ["every", "times", "formats"].iter().any(|key| section.get(key).is_some());
         let fields = match section.get("fields") {
@@ -120,7 +129,8 @@ impl Output {
             None => Self::default().formats,
         };
         let checkpoint = section.get("checkpoint").map(|item| item.number(Bound::Above(0.0))).transpose()?;
-        Ok(Self { fields, every: Every::read(section)?, formats, checkpoint })
+        let error_estimate = section.get("error_estimate").map(|item| item.boolean()).transpose()?.unwrap_or(false);
+        Ok(Self { fields, every: Every::read(section)?, formats, checkpoint, error_estimate })
     }
 }
 

@@ -10,6 +10,7 @@ mod contents;
 mod coupled;
 mod ending;
 mod error;
+mod estimate;
 mod fields;
 mod inputs;
 mod kinematics;
@@ -26,6 +27,7 @@ mod sums;
 mod sweeps;
 
 pub use error::{PointError, ShortStep, SolveError};
+pub use estimate::Estimate;
 pub use ladder::{Ladder, Moment, Ordinary, Outcome, OwnMethod, Pressed, Row, Stiff};
 pub use reference::{ErrorNorm, ReferenceError, compare};
 pub use run::Run;

@@ -1,5 +1,6 @@
 //! One run under a prescribed pressure: prepared, then gone through.
 
+mod estimate;
 mod ordinary;
 mod place;
 mod rounds;
@@ -13,7 +14,9 @@ use crate::integrator::substeps::Control;
 use crate::integrator::{Tally, norm};
 use crate::law::{Evaluator, OutputItem};
 use crate::plan::{Advance, FieldKind, Plan, ReferencePlan};
-use crate::record::{self, Checkpoint, Cost, End, Event, Line, MemoryLine, Observer, Record, Stability, Wish};
+use crate::record::{
+    self, Checkpoint, Cost, End, Estimated, Event, Line, MemoryLine, Observer, Record, Stability, Wish,
+};
 use crate::scene::ScalingKind;
 use crate::solve::chunk::SCANNED_POINTS;
 use crate::solve::inputs::Drive;
@@ -217,7 +220,10 @@ impl<'p> Prescribed<'p> {
             ) | Advance::Substeps(Control::Tolerance(_), _)
         );
         Ok(Record {
-            estimated_error: (estimated && size > 0.0).then(|| going.tally.error / size),
+            estimated: Estimated {
+                wear_l2_relative: (estimated && size > 0.0).then(|| going.tally.error / size),
+                ..Estimated::default()
+            },
             largest_step: going.tally.longest,
             cost: going.cost(begin),
             history: going.history,

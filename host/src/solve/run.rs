@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coupled::Coupled;
 use super::prescribed::Prescribed;
-use super::{ErrorNorm, Ladder, Ordinary, SolveError};
+use super::{ErrorNorm, Estimate, Ladder, Ordinary, SolveError};
 use crate::law::Evaluator;
 use crate::plan::Plan;
 use crate::record::{Checkpoint, Geometry, MemoryLine, Observer, Record};
@@ -158,6 +158,15 @@ impl<'p> Run<'p> {
         match &self.kind {
             Kind::Prescribed(run) => run.check_reference(),
             Kind::Coupled(run) => run.check_reference(),
+        }
+    }
+
+    /// Estimates the errors of a record, by further runs where the record does not say them; `observer` hears of their steps
+    /// and can end them, which leaves their part out.
+    pub fn estimate(&self, record: &Record<SolveError>, observer: &mut (dyn Observer + Send)) -> Estimate {
+        match &self.kind {
+            Kind::Prescribed(run) => run.estimate(record, observer),
+            Kind::Coupled(run) => run.estimate(record, observer),
         }
     }
 

@@ -103,7 +103,7 @@ fn caption(quantity: &str, unit: &str, exponent: i32) -> String {
 }
 
 /// A number for running text: four digits, with a power of ten where it is large or small.
-pub(super) fn number(value: f64) -> String {
+pub(in crate::output) fn number(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || !value.is_finite() {
         return format!("{value}");

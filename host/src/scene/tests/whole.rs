@@ -48,7 +48,10 @@ fn the_documented_scene() {
     assert_eq!(scene.stop, Stop { wear_depth: Some(1e-5), wear_volume: Some(1e-9) });
     let fields = vec!["pressure".to_owned(), "wear".to_owned()];
     let formats = vec![Format::Csv, Format::Vtk];
-    assert_eq!(scene.output, Output { fields, every: Every::End, formats, checkpoint: Some(60.0) });
+    assert_eq!(
+        scene.output,
+        Output { fields, every: Every::End, formats, checkpoint: Some(60.0), error_estimate: false }
+    );
     let target = Target::Exact("hertz-scar".to_owned());
     assert_eq!(scene.reference, Some(Reference { target, bar: Some(1e-3) }));
 }

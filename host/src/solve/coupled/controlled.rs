@@ -12,7 +12,7 @@ use super::segment::Segment;
 use super::stepper::{Accepted, Moment, Reach};
 use super::system::System;
 use crate::integrator::{AdvanceError, norm};
-use crate::record::HistoryRow;
+use crate::record::{Estimated, HistoryRow};
 use crate::scene::Every;
 use crate::solve::ending::stop_reached;
 use crate::solve::{PointError, SolveError};
@@ -42,13 +42,25 @@ pub(super) struct Control {
     pub(super) steps: u64,
     /// Sum of the estimated errors of the wear depth, L2 norms over the cells.
     pub(super) error: f64,
+    /// Sum of the estimated errors of the sum of the wear depths.
+    pub(super) sum_error: f64,
     /// Estimated error of the pressure at the end, relative in the L2 norm; `None`: not known.
     pub(super) pressure_error: Option<f64>,
 }
 
 impl Control {
     pub(super) fn new() -> Control {
-        Control { steps: FIRST_STEPS, error: 0.0, pressure_error: None }
+        Control { steps: FIRST_STEPS, error: 0.0, sum_error: 0.0, pressure_error: None }
+    }
+
+    /// The errors that all stretches together have left in wear depths and pressures.
+    pub(super) fn estimated(&self, wear: &[f64]) -> Estimated {
+        let (size, sum) = (norm(wear.iter().copied()), wear.iter().sum::<f64>());
+        Estimated {
+            wear_l2_relative: (size > 0.0).then(|| self.error / size),
+            pressure_l2_relative: self.pressure_error,
+            volume_relative: (sum > 0.0).then(|| self.sum_error / sum),
+        }
     }
 }
 
@@ -125,6 +137,8 @@ impl<'p> Coupled<'p> {
             let budget = self.budget(going, segment, until - start, &begin, &fine);
             if error <= budget {
                 going.control.error += error;
+                let sum = |pass: &Pass| pass.wear.iter().sum::<f64>();
+                going.control.sum_error += spread * (sum(&before) - sum(&fine)).abs();
                 let size = norm(fine.pressure.iter().copied());
                 going.control.pressure_error = Some(if size > 0.0 { pressure_error / size } else { 0.0 });
                 // Far within the tolerance: the next stretch begins with fewer steps.

@@ -5,6 +5,7 @@
 //! steps from wearing a gap open, and what is told on the way are here; solving a contact for given gaps is not.
 
 mod averaged;
+mod coarser;
 mod controlled;
 mod exact;
 mod going;

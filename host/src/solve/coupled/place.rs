@@ -185,6 +185,7 @@ impl Going<'_> {
             ("replaced", self.replaced as f64),
             ("control.steps", self.control.steps as f64),
             ("control.error", self.control.error),
+            ("control.sum_error", self.control.sum_error),
             ("control.pressure_error", self.control.pressure_error.unwrap_or(-1.0)),
             ("longest", self.longest),
             ("snapshot_told", flag(self.snapshot_told)),
@@ -245,6 +246,7 @@ impl Going<'_> {
         self.replaced = from.number("replaced")? as u64;
         self.control.steps = (from.number("control.steps")? as u64).max(1);
         self.control.error = from.number("control.error")?;
+        self.control.sum_error = from.number("control.sum_error")?;
         self.control.pressure_error = Some(from.number("control.pressure_error")?).filter(|error| *error >= 0.0);
         self.longest = from.number("longest")?;
         self.snapshot_told = from.number("snapshot_told")? > 0.0;

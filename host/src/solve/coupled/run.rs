@@ -12,7 +12,7 @@ use crate::contact::surface::height_map;
 use crate::integrator::{AdvanceError, Formula, norm};
 use crate::law::Evaluator;
 use crate::plan::{Plan, SolvedPlan};
-use crate::record::{Checkpoint, End, Line, Observer, Record};
+use crate::record::{Checkpoint, End, Estimated, Line, Observer, Record};
 use crate::scene::ScalingKind;
 use crate::solve::{SolveError, contents};
 
@@ -120,18 +120,18 @@ impl<'p> Coupled<'p> {
             ));
         }
         let mut system = system.unwrap_or_else(|| self.system(1));
-        let size = norm(going.stepper.wear.iter().copied());
         let cost = going.cost(&system);
         let stability = going.watch.told(self, going.steps);
-        let Going { stepper, history, warnings, units, start_pressure, .. } = going;
+        let Going { stepper, history, warnings, units, start_pressure, control, longest, .. } = going;
         let none = vec![0.0; self.gap.len()];
         let profile = line.map(|line| {
             line.profile(&units, [&start_pressure[..], &system.pressure[..], &none[..], &stepper.wear[..]])
         });
-        let estimated = self.plan.tolerance.is_some();
+        let estimated =
+            if self.plan.tolerance.is_some() { control.estimated(&stepper.wear) } else { Estimated::default() };
         Ok(Record {
-            estimated_error: (estimated && size > 0.0).then(|| going.control.error / size),
-            largest_step: going.longest,
+            estimated,
+            largest_step: longest,
             cost,
             history,
             wear: stepper.wear,
