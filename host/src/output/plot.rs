@@ -11,7 +11,7 @@ mod panel;
 use super::{OutputError, write_file};
 use crate::record::{History, HistoryRow, Profile, Units};
 use axis::Axis;
-pub(super) use axis::number;
+pub(super) use axis::{number, rounded};
 use curve::{Curve, Look};
 use panel::{Panel, Place, QUIET, Style, write};
 use plotters::coord::Shift;

@@ -5,12 +5,15 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::Page;
-use crate::output::plot::{number, plot_svg};
+use crate::output::plot::{number, plot_svg, rounded};
 use crate::output::{Figure, OutputError, Report};
 use crate::record::{Cost, HistoryRow, Identity};
 
 /// Rows of the history that are shown at most.
 const ROWS: usize = 24;
+
+/// Digits of the results.
+const DIGITS: usize = 11;
 
 /// What the page of a run is made of.
 #[derive(Clone, Copy, Debug)]
@@ -104,7 +107,7 @@ impl RunPage<'_> {
         ];
         let mut facts: Vec<(String, String)> = known
             .into_iter()
-            .filter_map(|(name, value, unit)| Some((name.to_owned(), format!("{} {unit}", value?))))
+            .filter_map(|(name, value, unit)| Some((name.to_owned(), format!("{} {unit}", rounded(value?, DIGITS)))))
             .collect();
         if let Some(share) = self.report.share {
             facts.push((
@@ -122,8 +125,12 @@ impl RunPage<'_> {
         let fields = error["by_field"].as_object().cloned().unwrap_or_default();
         if !fields.is_empty() {
             page.heading(&format!("Error: {}", error["reference"].as_str().unwrap_or_default()));
-            let rows: Vec<Vec<String>> =
-                fields.iter().map(|(name, value)| vec![name.replace('_', " "), shown(value)]).collect();
+            let rows: Vec<Vec<String>> = fields
+                .iter()
+                .map(|(name, value)| {
+                    vec![name.replace('_', " ").replace(" l2 ", " L2, ").replace(" cells", ", in cells"), shown(value)]
+                })
+                .collect();
             page.table(&["norm", "value"], &rows);
         }
         let estimate = &error["estimate"];
@@ -178,7 +185,7 @@ impl RunPage<'_> {
         });
         page.table(&head.each_ref().map(String::as_str), &shown.collect::<Vec<_>>());
         if every > 1 {
-            page.text(&format!("Every {every}th of {} rows; all are in history.csv.", rows.len()));
+            page.text(&format!("One row in {every} of {}; all are in history.csv.", rows.len()));
         }
     }
 

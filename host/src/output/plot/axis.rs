@@ -104,17 +104,22 @@ fn caption(quantity: &str, unit: &str, exponent: i32) -> String {
 
 /// A number for running text: four digits, with a power of ten where it is large or small.
 pub(in crate::output) fn number(value: f64) -> String {
+    rounded(value, 4)
+}
+
+/// A number in so many digits, at least four, with a power of ten where it is large or small.
+pub(in crate::output) fn rounded(value: f64, digits: usize) -> String {
     let size = value.abs();
     if size == 0.0 || !value.is_finite() {
         return format!("{value}");
     }
-    let scientific = format!("{value:.3e}");
-    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let scientific = format!("{value:.*e}", digits - 1);
+    let (shown, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let text = if (-2..4).contains(&exponent) {
-        trimmed(&format!("{value:.*}", (3 - exponent) as usize))
+        trimmed(&format!("{value:.*}", (digits as i32 - 1 - exponent) as usize))
     } else {
-        format!("{}×10{}", trimmed(digits), superscript(exponent))
+        format!("{}×10{}", trimmed(shown), superscript(exponent))
     };
     text.replace('-', "−")
 }
