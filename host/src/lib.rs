@@ -3,7 +3,8 @@
 //! Data flows one way: [`scene`] (what was asked), [`plan`] (what will be done), [`solve`] (the only loop), [`record`]
 //! (what happened), [`output`] (its readers). [`law`] loads and calls wear laws, [`contact`] gives what drives them,
 //! [`conformance`] checks whether a law keeps its contract, [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers.
-//! [`cli`] is the program.
+//! [`cli`] is the program. The book (`host/book` in the repository) shows on its page on embedding how a program of one's own
+//! runs a scene.
 
 pub mod apdl;
 pub mod cli;
@@ -22,6 +23,11 @@ pub mod solve;
 mod splitmix;
 pub mod stability;
 pub mod templates;
+
+/// The Rust program in the book's page on embedding runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../book/embedding.md")]
+struct Embedding;
 
 pub use error::Error;
 pub use exit_code::ExitCode;
