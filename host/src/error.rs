@@ -16,6 +16,7 @@ use crate::plan::{PlanError, PlanProblem};
 use crate::record::Difference;
 use crate::scene::{Located, Location, SceneError};
 use crate::solve::SolveError;
+use crate::sweep::SweepError;
 use crate::templates::TemplateError;
 
 /// Whatever can end a command early.
@@ -74,6 +75,9 @@ pub enum Error {
     /// A law could not be checked at all.
     #[error(transparent)]
     Conformance(#[from] ConformanceError),
+    /// A sweep has no cases, or no table of them.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
     /// A new law's folder could not be made.
     #[error(transparent)]
     Template(#[from] TemplateError),

@@ -17,6 +17,7 @@ use crate::output::OutputError;
 use crate::plan::PlanProblem;
 use crate::scene::Problem;
 use crate::solve::{PointError, ReferenceError, SolveError};
+use crate::sweep::SweepError;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -128,6 +129,11 @@ impl ExitCode {
                 | OutputError::EarlierFields { .. } => Self::ReadWriteFailed,
             },
             Error::Conformance(error) => of_checking(error),
+            Error::Sweep(SweepError::Cases { source, .. }) => match source.kind() {
+                csv::ErrorKind::Io(error) => of_reading(error.kind()),
+                _ => Self::InputWrong,
+            },
+            Error::Sweep(_) => Self::InputWrong,
             Error::Template(error) if error.is_io() => Self::ReadWriteFailed,
             Error::Template(_) => Self::InputWrong,
             Error::Stdout(_) | Error::Temporary { .. } | Error::Threads { .. } => Self::ReadWriteFailed,

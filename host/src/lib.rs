@@ -22,6 +22,7 @@ pub mod scene;
 pub mod solve;
 mod splitmix;
 pub mod stability;
+pub mod sweep;
 pub mod templates;
 
 /// The Rust program in the book's page on embedding runs as a test.

@@ -50,6 +50,8 @@ pub(super) enum Command {
     Run(RunArguments),
     /// Show what a scene will compute and what it leaves out; run nothing
     Plan(PlanArguments),
+    /// Run many cases of a scene over all cores into one table; what is done already is kept
+    Sweep(SweepArguments),
     /// Measure how stiff the contact is against wear, and what each integrator does beyond the explicit limit
     ///
     /// Ends with 4 if the scene's own method is not fine.
@@ -119,6 +121,31 @@ pub(super) struct PlanArguments {
     pub(super) scene: PathBuf,
     #[command(flatten)]
     pub(super) shared: SceneArguments,
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct SweepArguments {
+    /// The scene file (TOML)
+    pub(super) scene: PathBuf,
+    /// Vary a key: KEY=VALUE,VALUE,.. or KEY=FIRST..LAST:COUNT or KEY=FIRST..LAST:COUNT:log; may be repeated
+    ///
+    /// Several keys give every combination of their values.
+    #[arg(long, value_name = "KEY=VALUES", required_unless_present = "cases", conflicts_with = "cases")]
+    pub(super) vary: Vec<String>,
+    /// Take the cases from a CSV file: its columns are keys of the scene, a row is a case
+    #[arg(long, value_name = "FILE")]
+    pub(super) cases: Option<PathBuf>,
+    /// Run every Nth case only, from the Ith on: for arrays of jobs that write into one folder
+    #[arg(long, value_name = "I/N")]
+    pub(super) shard: Option<String>,
+    #[command(flatten)]
+    pub(super) shared: SceneArguments,
+    /// Folder for the table and the cases [default: the scene's name with .sweep, here]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Number of cases that run at a time [default: as many as the machine has threads]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) threads: Option<u16>,
 }
 
 #[derive(Debug, Clone, Args)]

@@ -20,10 +20,15 @@ pub(super) fn guarded<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<T, E
         let mut first = FIRST.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         first.get_or_insert(what);
     }));
-    // Nothing of `work` is used after a panic, so nothing half-changed can be seen.
-    let result = catch_unwind(AssertUnwindSafe(work));
+    let result = caught(work);
     let _ = std::panic::take_hook();
-    result.unwrap_or_else(|_| {
+    result
+}
+
+/// Runs a part of guarded work; a panic in it becomes [`Error::Fault`], and the rest goes on.
+pub(super) fn caught<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    // Nothing of `work` is used after a panic, so nothing half-changed can be seen.
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
         let what = FIRST.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).take();
         Err(Error::Fault { what: what.unwrap_or_else(|| "a panic without words".to_owned()) })
     })

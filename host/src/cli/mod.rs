@@ -23,6 +23,7 @@ mod run;
 mod stability;
 mod standard_output;
 mod summary;
+mod sweep;
 mod table;
 mod unit_text;
 mod writing;
@@ -68,6 +69,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
     match command {
         Command::Run(arguments) => run::command(console, arguments),
+        Command::Sweep(arguments) => sweep::command(console, &arguments),
         Command::Stability(arguments) => stability::command(console, arguments),
         Command::Plan(arguments) => plan::command(console, arguments),
         Command::Build(arguments) => build::command(console, &arguments),

@@ -121,7 +121,7 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
         false => Estimate::of_steps(&record),
     };
     drop(watch);
-    let report = report(&scene, &plan, &law, settings, &record, (error.as_ref(), &estimate))?;
+    let report = report(&scene, &plan, &law, settings.shared.isolate, &record, (error.as_ref(), &estimate))?;
     write_history(&record.history, &keeper.path().join("history.csv"))?;
     let title = scene.title.clone().unwrap_or_else(|| settings.scene.display().to_string());
     let figure =
@@ -184,11 +184,11 @@ fn field_format(format: Format) -> FieldFormat {
     }
 }
 
-fn report(
+pub(super) fn report(
     scene: &Scene,
     plan: &Plan,
     law: &OpenedLaw,
-    settings: &Settings,
+    isolated: bool,
     record: &Record<SolveError>,
     (error, estimate): (Option<&ErrorNorm>, &Estimate),
 ) -> Result<Report, Error> {
@@ -216,7 +216,7 @@ fn report(
                 let named = descriptor.constants.iter().enumerate();
                 named.map(|(c, constant)| (constant.name.clone(), table.value(c, 0.0, 0.0))).collect()
             }),
-            isolated: settings.shared.isolate,
+            isolated,
             build_time_s: law.build_seconds,
         },
         computed: plan.computed.clone(),

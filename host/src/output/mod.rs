@@ -22,4 +22,4 @@ pub use fields::{FieldFormat, FieldSeries, write_fields};
 pub use html::{Page, RunPage, write_run_page};
 pub use plot::{Figure, write_plot};
 pub use report::{LawReport, Report, StabilityReport};
-pub use whole::{WholeFolder, check_folder, write_file, write_file_synced};
+pub use whole::{WholeFolder, check_folder, sweep_folder, write_file, write_file_synced};

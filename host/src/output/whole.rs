@@ -17,6 +17,9 @@ const REPORT: &str = "report.json";
 const CHECKPOINT: &str = "checkpoint";
 /// Everything a run writes at the top of its folder; nothing else there is ever removed.
 const FILES: [&str; 5] = [REPORT, CHECKPOINT, "report.html", "history.csv", "plot.svg"];
+/// What a sweep writes: a file for each case in a folder, and the table.
+const CASES: &str = "cases";
+const SWEEP: &str = "cases.csv";
 const FIELDS: &str = "fields";
 const FIELD_ENDINGS: [&str; 5] = ["csv", "npz", "vtp", "vti", "pvd"];
 const ASIDE: &str = ".partial-";
@@ -84,6 +87,27 @@ pub fn check_folder(path: &Path) -> Result<(), OutputError> {
         Some(found) => Err(OutputError::NotAResult { path: path.into(), found }),
         None => Ok(()),
     }
+}
+
+/// Opens the folder `path` for a sweep, new, empty, or of an earlier sweep; gives the folder of its cases.
+///
+/// # Errors
+/// `NotAFolder` for a file, `NotAResult` for a folder with other entries, `Io` when it cannot be read or made.
+pub fn sweep_folder(path: &Path) -> Result<PathBuf, OutputError> {
+    let cases = path.join(CASES);
+    match fs::metadata(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        Err(error) => return Err(OutputError::io("read", path)(error)),
+        Ok(found) if !found.is_dir() => return Err(OutputError::NotAFolder { path: path.into() }),
+        Ok(_) => {
+            let others = |name: &String| ![CASES, SWEEP].contains(&name.as_str()) && !name.starts_with(ASIDE);
+            if let Some(found) = names_in(path)?.into_iter().find(others) {
+                return Err(OutputError::NotAResult { path: path.into(), found });
+            }
+        }
+    }
+    fs::create_dir_all(&cases).map_err(OutputError::io("create", &cases))?;
+    Ok(cases)
 }
 
 /// A folder of results that is written aside and appears whole, or not at all when it is dropped.
