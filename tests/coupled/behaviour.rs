@@ -153,3 +153,18 @@ fn lifting_off_and_touching_again_leaves_wear_as_it_was() {
     assert_eq!(once.wear, lifted.wear);
     assert!(lifted.pressure.iter().all(|pressure| *pressure == 0.0));
 }
+
+/// A contact that takes over the grid within a step takes in more cells than the law was asked at: it is not the law's fault.
+#[test]
+fn a_contact_that_grows_far_beyond_the_cells_that_were_asked_accuses_no_law() {
+    let case = Case::text(
+        "[law]\nuse = \"archard\"\nconstants = [1e-14, 1.0, 1.0, 1.0]\n[contact]\nmodel = \"halfspace\"\nmodulus = 1e11\n\
+         [grid]\nsize = [3.861649e-4, 3.861649e-4]\ncells = [24, 24]\n[surface]\nshape = \"cone\"\nangle = 1.0\n\
+         [[step]]\nduration = 1.26577e4\nload = 0.1062627\nvelocity = 1.0\n\
+         [[step]]\nduration = 4.487243e9\nload = 0.1642956\nvelocity = 1.0\nstick = 2.340186e-5\n\
+         [integrator]\ntolerance = 2.4592e-4\n",
+    );
+    let ended = case.end(&archard()).record.end;
+    let End::Failed(error) = ended else { panic!("{ended:?}") };
+    assert!(error.to_string().contains("the contact covers all of the grid's rim"), "{error}");
+}

@@ -4,13 +4,14 @@ use crate::solved::Solved;
 use crate::{norm, run};
 
 fn limit(cells: usize) -> Solved {
-    limit_in(cells, 1e7, 1)
+    limit_in(cells, 1.0, 1e7, 1)
 }
 
-/// Reached in so many equal steps of a slip that lasts so long.
-fn limit_in(cells: usize, duration: f64, substeps: u32) -> Solved {
+/// Reached by a law of some pressure exponent in so many equal steps of a slip that lasts so long.
+fn limit_in(cells: usize, exponent: f64, duration: f64, substeps: u32) -> Solved {
+    let coefficient = 1e-14 * 1e9_f64.powf(1.0 - exponent);
     run(&format!(
-        "[law]\nuse = \"archard\"\nconstants = [1e-14, 1.0, 1.0, 1.0]\n\
+        "[law]\nuse = \"archard\"\nconstants = [{coefficient:e}, 1.0, {exponent:.1}, 1.0]\n\
          [contact]\nmodel = \"halfspace\"\nmodulus = 115e9\n\
          [grid]\nsize = [2.8e-4, 2.8e-4]\ncells = [{cells}, {cells}]\n\
          [surface]\nshape = \"sphere\"\nradius = 10e-3\ncenter = [1.4e-4, 1.4e-4]\n\
@@ -40,11 +41,20 @@ fn one_step_reaches_the_limit() {
 #[test]
 fn further_steps_of_any_length_wear_nothing_more() {
     let once = limit(28);
-    for (duration, substeps) in [(1e7, 5), (1e10, 2), (1e14, 5), (1e25, 2), (1e25, 5)] {
-        let again = limit_in(28, duration, substeps);
+    for (m, duration, substeps) in [
+        (1.0, 1e7, 5),
+        (1.0, 1e10, 2),
+        (1.0, 1e14, 5),
+        (1.0, 1e25, 2),
+        (1.0, 1e25, 5),
+        (0.5, 1e10, 5),
+        (1.5, 1e14, 5),
+        (2.0, 1e18, 5),
+    ] {
+        let again = limit_in(28, m, duration, substeps);
         let all = once.record.wear.iter().zip(&again.record.wear);
         let most = all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        assert!(most < 1e-5 * 2.965e-7, "{substeps} steps, {duration:e} s: {most:e}");
+        assert!(most < 1e-5 * 2.965e-7, "m = {m}, {substeps} steps, {duration:e} s: {most:e}");
     }
 }
 

@@ -4,7 +4,7 @@ use super::segment::Driven;
 use super::system::{System, Tractions};
 use crate::contact::{Control, Diagonal};
 use crate::integrator::Reply;
-use crate::plan::Slope;
+use crate::plan::{Elastic, Slope};
 use crate::solve::PointError;
 
 /// Most linearisations of a stage.
@@ -18,6 +18,8 @@ const DIFFERENCE: f64 = 1e-7;
 const KEPT: f64 = 0.05;
 /// Part of the contact tolerance that wear at no pressure may be wrong by.
 const NEGLIGIBLE: f64 = 1e-3;
+/// How far above the mean over the load the root mean square over cells may be that carry next to nothing.
+const SOFT: f64 = 8.0;
 /// A slope below minus this part of increment / pressure is no rounding: the law falls with pressure.
 const FALLING: f64 = 1e-5;
 
@@ -199,7 +201,8 @@ impl System<'_> {
     }
 
     /// sum p |J(p) - line(p)| / (sum p * scale), plus the deepest overlap that J(p) < line(p) leaves, over the scale: the
-    /// units of the complementarity error.
+    /// units of the complementarity error. Cells whose wear takes up nearly all of what is theirs carry next to nothing; as
+    /// in the contact solve, what they wear counts by itself, by its root mean square.
     fn misfit(&self, per_increment: f64, diagonal: &[f64], line: &[f64], point: &[f64]) -> f64 {
         let smoothed = self.smoothed();
         let largest = self.pressure.iter().chain(point).fold(0.0, |most: f64, p| most.max(*p));
@@ -207,6 +210,7 @@ impl System<'_> {
             return 0.0;
         }
         let (mut sum, mut weight, mut deepest) = (0.0, 0.0, 0.0_f64);
+        let (mut squares, mut count, own) = (0.0, 0.0, self.own_compliance());
         let mut listed = self.room.cells.iter().enumerate().peekable();
         for cell in 0..point.len() {
             let found = listed.next_if(|(_, at)| **at as usize == cell);
@@ -218,6 +222,10 @@ impl System<'_> {
             let law = found.map_or(0.0, |(i, _)| per_increment * self.law.increment[i]);
             // An open cell is misjudged only by what its line wears at no pressure.
             let line = line[cell] + diagonal[cell] * driving;
+            if driving > 0.0 {
+                squares += ((law - line) / (1.0 + own / diagonal[cell])).powi(2);
+                count += 1.0_f64;
+            }
             let share = if pressure > 0.0 { pressure } else { point[cell] } / largest;
             sum += share * (law - line).abs();
             // Cells that their lines left open count too: the line of a concave law lies far above it on the way down to zero,
@@ -225,7 +233,16 @@ impl System<'_> {
             weight += share;
             deepest = deepest.max(line - law);
         }
-        (if weight > 0.0 { sum / weight } else { 0.0 } + deepest) / self.gap_scale
+        let soft = if count > 0.0 { (squares / count).sqrt() / SOFT } else { 0.0 };
+        (if weight > 0.0 { sum / weight } else { 0.0 } + deepest).max(soft) / self.gap_scale
+    }
+
+    /// What pressure on a cell alone displaces it by, per pressure, but for a factor near one.
+    fn own_compliance(&self) -> f64 {
+        match self.solved.elastic {
+            Elastic::Foundation(stiffness) => stiffness.recip(),
+            Elastic::HalfSpace { modulus, .. } => self.solved.cells.spacing[0] / modulus,
+        }
     }
 }
 

@@ -12,8 +12,8 @@ use crate::solve::PointError;
 const RINGS: usize = 2;
 /// Relative difference from proportionality that rounding inside a law may make.
 const ROUNDING: f64 = 1e-6;
-/// Most solves of one stage while the contact grows beyond the cells that were asked.
-const MOST_SOLVES: usize = 50;
+/// Solves of one stage, while the contact grows beyond the cells that were asked, before all cells are.
+const SOLVES: u32 = 4;
 
 /// Fields that may differ from cell to cell of a contact whose cells all slide alike.
 const LOCAL: [Field; 5] = [Field::Coordinates, Field::Gap, Field::PointId, Field::AccumulatedWear, Field::ContactState];
@@ -64,7 +64,7 @@ impl System<'_> {
         diagonal.clear();
         diagonal.resize(asked.len(), 0.0);
         let mut wanted: Vec<u32> = listed(&asked);
-        for _ in 0..MOST_SOLVES {
+        for solves in 1.. {
             self.room.cells.clone_from(&wanted);
             self.room.compact.clear();
             self.room.compact.resize(wanted.len(), probe);
@@ -91,6 +91,11 @@ impl System<'_> {
             }
             if wanted.is_empty() {
                 break;
+            }
+            if solves >= SOLVES {
+                wanted.extend((0..).zip(&asked).filter(|(_, asked)| !**asked).map(|(cell, _)| cell));
+                wanted.sort_unstable();
+                asked.fill(true);
             }
         }
         let reply = self.judged(driven, b_of(&Diagonal::PerPoint(&diagonal)), weight, rate);
