@@ -223,3 +223,25 @@ fn open_points_reach_a_law_that_asks_for_them() {
     }
     assert!(record.wear.iter().filter(|wear| **wear > 0.0).count() > 3, "{:?}", record.wear);
 }
+
+/// Pressure beyond which [`Threshold`] wears.
+const BEYOND: f64 = 5.639954e6;
+spring_law!(Threshold, "threshold", Degree::Unclaimed, Flags::EMPTY, |p| (p - BEYOND).max(0.0));
+
+/// A law that wears beyond a pressure alone leaves the worn cells at that pressure however long it goes on, to so many digits
+/// that a relative error of 1e-6 in it would wear through the body.
+#[test]
+fn cells_at_the_threshold_of_a_law_wear_no_more_than_there_is() {
+    for duration in [1e6, 1e8, 1e10] {
+        let case = Case::text(&format!(
+            "[law]\nuse = \"archard\"\nconstants = [1e-14]\n[contact]\nmodel = \"foundation\"\n\
+             stiffness = 7.734186e12\n[grid]\nsize = [5.844455e-4, 5.844455e-4]\ncells = [24, 24]\n\
+             [surface]\nshape = \"cone\"\nangle = 1.0\n[[step]]\nduration = {duration:e}\nload = 0.77\nvelocity = 1.0\n\
+             [integrator]\nmethod = \"implicit-euler\"\nsubsteps = 1\n"
+        ));
+        let record = case.solve(&memory::<Threshold>(None)).record;
+        let last = record.history.last().expect("rows");
+        near(last.max_wear_depth, 3.27e-6, 2e-3);
+        assert!(last.max_wear_depth < last.approach.expect("an approach"));
+    }
+}

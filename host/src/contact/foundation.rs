@@ -116,7 +116,19 @@ impl ContactModel for Foundation {
             && problem.frozen.is_none()
             && sum > 0.0
         {
-            // What rounding left of the load, so that worn volumes balance.
+            // What rounding left of the load, so that worn volumes balance. It is the approach that was rounded: where a
+            // local compliance makes a cell soft, next to nothing of it belongs there, and a factor would wear it away.
+            let on =
+                |(cell, value): (usize, &f64)| if *value > 0.0 { self.slope(&problem.diagonal, cell) } else { 0.0 };
+            let slopes: f64 = pressure.iter().enumerate().map(on).sum();
+            let shift = (wanted / area - sum) / slopes;
+            if shift.is_finite() {
+                sum = 0.0;
+                for (cell, value) in pressure.iter_mut().enumerate().filter(|(_, value)| **value > 0.0) {
+                    *value = (*value + shift * self.slope(&problem.diagonal, cell)).max(0.0);
+                    sum += *value;
+                }
+            }
             let factor = wanted / area / sum;
             pressure.iter_mut().for_each(|value| *value *= factor);
             load = wanted;
