@@ -6,7 +6,7 @@ mod sources;
 use std::path::Path;
 
 /// Each top-level module and the others of the crate that it may name.
-const MAY_USE: [(&str, &[&str]); 17] = [
+const MAY_USE: [(&str, &[&str]); 18] = [
     ("scene", &[]),
     ("reference", &[]),
     ("splitmix", &[]),
@@ -20,6 +20,7 @@ const MAY_USE: [(&str, &[&str]); 17] = [
     ("plan", &["scene", "apdl", "law", "contact", "integrator", "reference"]),
     ("solve", &["plan", "record", "scene", "apdl", "law", "contact", "integrator", "stability", "reference"]),
     ("output", &["record"]),
+    ("study", &["scene", "law", "integrator", "plan", "solve", "record", "reference"]),
     // Its tests read the scene that it writes.
     ("templates", &["scene", "law"]),
     ("error", ALL_BUT_CLI),
@@ -38,6 +39,7 @@ const ALL_BUT_CLI: &[&str] = &[
     "apdl",
     "integrator",
     "stability",
+    "study",
     "plan",
     "solve",
     "output",

@@ -16,6 +16,7 @@ use crate::plan::{PlanError, PlanProblem};
 use crate::record::Difference;
 use crate::scene::{Located, Location, SceneError};
 use crate::solve::SolveError;
+use crate::study::StudyError;
 use crate::templates::TemplateError;
 
 /// Whatever can end a command early.
@@ -74,6 +75,9 @@ pub enum Error {
     /// A law could not be checked at all.
     #[error(transparent)]
     Conformance(#[from] ConformanceError),
+    /// A study could not be made.
+    #[error(transparent)]
+    Study(Box<StudyError>),
     /// A new law's folder could not be made.
     #[error(transparent)]
     Template(#[from] TemplateError),
@@ -151,6 +155,18 @@ pub enum UsageError {
 impl From<SolveError> for Error {
     fn from(error: SolveError) -> Error {
         Error::Solve(Box::new(error))
+    }
+}
+
+impl From<StudyError> for Error {
+    fn from(error: StudyError) -> Error {
+        match error {
+            StudyError::Scene(error) => error.into(),
+            StudyError::Plan(error) => error.into(),
+            StudyError::Solve(error) => Error::Solve(error),
+            StudyError::Interrupted => Error::Interrupted,
+            other => Error::Study(Box::new(other)),
+        }
     }
 }
 

@@ -16,7 +16,9 @@ use crate::law::isolate::IsolateError;
 use crate::output::OutputError;
 use crate::plan::PlanProblem;
 use crate::scene::Problem;
+
 use crate::solve::{PointError, ReferenceError, SolveError};
+use crate::study::StudyError;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -128,6 +130,10 @@ impl ExitCode {
                 | OutputError::EarlierFields { .. } => Self::ReadWriteFailed,
             },
             Error::Conformance(error) => of_checking(error),
+            Error::Study(error) => match **error {
+                StudyError::Yardstick(_) => Self::NumbersFailed,
+                _ => Self::InputWrong,
+            },
             Error::Template(error) if error.is_io() => Self::ReadWriteFailed,
             Error::Template(_) => Self::InputWrong,
             Error::Stdout(_) | Error::Temporary { .. } | Error::Threads { .. } => Self::ReadWriteFailed,

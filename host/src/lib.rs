@@ -2,7 +2,8 @@
 //!
 //! Data flows one way: [`scene`] (what was asked), [`plan`] (what will be done), [`solve`] (the only loop), [`record`]
 //! (what happened), [`output`] (its readers). [`law`] loads and calls wear laws, [`contact`] gives what drives them,
-//! [`conformance`] checks whether a law keeps its contract, [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers.
+//! [`conformance`] checks whether a law keeps its contract, [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers,
+//! [`study`](mod@study) runs a scene in many ways.
 //! [`cli`] is the program.
 
 pub mod apdl;
@@ -21,6 +22,7 @@ pub mod scene;
 pub mod solve;
 mod splitmix;
 pub mod stability;
+pub mod study;
 pub mod templates;
 
 pub use error::Error;

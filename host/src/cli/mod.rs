@@ -21,6 +21,9 @@ mod restart;
 mod run;
 mod stability;
 mod standard_output;
+mod study;
+mod study_args;
+mod study_table;
 mod summary;
 mod table;
 mod unit_text;
@@ -68,6 +71,7 @@ fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
     match command {
         Command::Run(arguments) => run::command(console, arguments),
         Command::Stability(arguments) => stability::command(console, arguments),
+        Command::Study(arguments) => study::command(console, arguments),
         Command::Plan(arguments) => plan::command(console, arguments),
         Command::Build(arguments) => build::command(console, &arguments),
         Command::New(arguments) => new::command(console, &arguments),

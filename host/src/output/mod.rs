@@ -11,6 +11,7 @@ mod little_endian;
 pub mod npz;
 pub mod plot;
 mod report;
+mod study;
 pub mod vtk;
 pub mod whole;
 
@@ -20,4 +21,5 @@ pub use error::OutputError;
 pub use fields::{FieldFormat, FieldSeries, write_fields};
 pub use plot::{Figure, write_plot};
 pub use report::{LawReport, Report, StabilityReport};
+pub use study::{check_study_folder, write_study};
 pub use whole::{WholeFolder, check_folder, write_file, write_file_synced};

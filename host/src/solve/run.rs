@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coupled::Coupled;
 use super::prescribed::Prescribed;
-use super::{ErrorNorm, Ladder, Ordinary, SolveError};
+use super::{ErrorNorm, Expected, Ladder, Ordinary, SolveError};
 use crate::law::Evaluator;
 use crate::plan::Plan;
 use crate::record::{Checkpoint, Geometry, MemoryLine, Observer, Record};
@@ -158,6 +158,18 @@ impl<'p> Run<'p> {
         match &self.kind {
             Kind::Prescribed(run) => run.check_reference(),
             Kind::Coupled(run) => run.check_reference(),
+        }
+    }
+
+    /// What the reference that the plan names says of the points at the time that a record has reached; `None` if it names
+    /// none, or one that says nothing of single points (a refined run, published depths).
+    ///
+    /// # Errors
+    /// A reference that does not cover the scene, or cannot be read or computed.
+    pub fn expected(&self, record: &Record<SolveError>) -> Result<Option<Expected>, SolveError> {
+        match &self.kind {
+            Kind::Prescribed(run) => run.expected(record),
+            Kind::Coupled(run) => run.expected(record),
         }
     }
 
