@@ -6,7 +6,7 @@ mod sources;
 use std::path::Path;
 
 /// Each top-level module and the others of the crate that it may name.
-const MAY_USE: [(&str, &[&str]); 18] = [
+const MAY_USE: [(&str, &[&str]); 19] = [
     ("scene", &[]),
     ("reference", &[]),
     ("splitmix", &[]),
@@ -21,6 +21,7 @@ const MAY_USE: [(&str, &[&str]); 18] = [
     ("solve", &["plan", "record", "scene", "apdl", "law", "contact", "integrator", "stability", "reference"]),
     ("output", &["record"]),
     ("sweep", &["scene", "record", "output"]),
+    ("study", &["scene", "law", "integrator", "plan", "solve", "record", "reference"]),
     // Its tests read the scene that it writes.
     ("templates", &["scene", "law"]),
     ("error", ALL_BUT_CLI),
@@ -39,6 +40,7 @@ const ALL_BUT_CLI: &[&str] = &[
     "apdl",
     "integrator",
     "stability",
+    "study",
     "plan",
     "solve",
     "output",

@@ -16,6 +16,7 @@ use crate::plan::{PlanError, PlanProblem};
 use crate::record::Difference;
 use crate::scene::{Located, Location, SceneError};
 use crate::solve::SolveError;
+use crate::study::StudyError;
 use crate::sweep::SweepError;
 use crate::templates::TemplateError;
 
@@ -78,6 +79,9 @@ pub enum Error {
     /// A sweep has no cases, or no table of them.
     #[error(transparent)]
     Sweep(#[from] SweepError),
+    /// A study could not be made.
+    #[error(transparent)]
+    Study(Box<StudyError>),
     /// A new law's folder could not be made.
     #[error(transparent)]
     Template(#[from] TemplateError),
@@ -155,6 +159,18 @@ pub enum UsageError {
 impl From<SolveError> for Error {
     fn from(error: SolveError) -> Error {
         Error::Solve(Box::new(error))
+    }
+}
+
+impl From<StudyError> for Error {
+    fn from(error: StudyError) -> Error {
+        match error {
+            StudyError::Scene(error) => error.into(),
+            StudyError::Plan(error) => error.into(),
+            StudyError::Solve(error) => Error::Solve(error),
+            StudyError::Interrupted => Error::Interrupted,
+            other => Error::Study(Box::new(other)),
+        }
     }
 }
 

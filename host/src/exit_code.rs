@@ -17,6 +17,7 @@ use crate::output::OutputError;
 use crate::plan::PlanProblem;
 use crate::scene::Problem;
 use crate::solve::{PointError, ReferenceError, SolveError};
+use crate::study::StudyError;
 use crate::sweep::SweepError;
 
 /// How a command ended.
@@ -134,6 +135,10 @@ impl ExitCode {
                 _ => Self::InputWrong,
             },
             Error::Sweep(_) => Self::InputWrong,
+            Error::Study(error) => match **error {
+                StudyError::Yardstick(_) => Self::NumbersFailed,
+                _ => Self::InputWrong,
+            },
             Error::Template(error) if error.is_io() => Self::ReadWriteFailed,
             Error::Template(_) => Self::InputWrong,
             Error::Stdout(_) | Error::Temporary { .. } | Error::Threads { .. } => Self::ReadWriteFailed,

@@ -2,9 +2,10 @@
 //!
 //! Data flows one way: [`scene`] (what was asked), [`plan`] (what will be done), [`solve`] (the only loop), [`record`]
 //! (what happened), [`output`] (its readers). [`law`] loads and calls wear laws, [`contact`] gives what drives them,
-//! [`conformance`] checks whether a law keeps its contract, [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers.
-//! [`cli`] is the program. The book (`host/book` in the repository) shows on its page on embedding how a program of one's own
-//! runs a scene.
+//! [`conformance`] checks whether a law keeps its contract, [`integrator`] advances wear in time, [`apdl`] reads the commands
+//! of an input deck, [`mod@reference`] holds exact answers, [`study`](mod@study) runs a scene in many ways and [`mod@sweep`] many
+//! cases of one. [`cli`] is the program. The book (`host/book` in the repository) shows on its page on embedding how a
+//! program of one's own runs a scene.
 
 pub mod apdl;
 pub mod cli;
@@ -22,6 +23,7 @@ pub mod scene;
 pub mod solve;
 mod splitmix;
 pub mod stability;
+pub mod study;
 pub mod sweep;
 pub mod templates;
 

@@ -7,6 +7,7 @@ use std::time::Duration;
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::study_args::{STUDYING, StudyArguments};
 use crate::error::printable;
 use crate::exit_code::ExitCode;
 use crate::law::build::Language;
@@ -56,6 +57,12 @@ pub(super) enum Command {
     ///
     /// Ends with 4 if the scene's own method is not fine.
     Stability(StabilityArguments),
+    /// Run a scene in many ways: error against run time over integrators, steps, tolerances, scaling and grids
+    ///
+    /// Every case is the scene under overrides; they run from cheap to dear until the budget is spent, and what is left out
+    /// is listed. Writes study.csv, study.json and study.svg.
+    #[command(after_long_help = STUDYING)]
+    Study(StudyArguments),
     /// Compile sources or a Rust crate into a wear-law library
     Build(BuildArguments),
     /// Make a folder with a working wear law of your own to start from

@@ -22,6 +22,9 @@ mod restart;
 mod run;
 mod stability;
 mod standard_output;
+mod study;
+mod study_args;
+mod study_table;
 mod summary;
 mod sweep;
 mod table;
@@ -71,6 +74,7 @@ fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
         Command::Run(arguments) => run::command(console, arguments),
         Command::Sweep(arguments) => sweep::command(console, &arguments),
         Command::Stability(arguments) => stability::command(console, arguments),
+        Command::Study(arguments) => study::command(console, arguments),
         Command::Plan(arguments) => plan::command(console, arguments),
         Command::Build(arguments) => build::command(console, &arguments),
         Command::New(arguments) => new::command(console, &arguments),

@@ -40,6 +40,14 @@ impl Progress {
         Self { bar }
     }
 
+    /// Shows what a study runs, and how much of its budget is spent.
+    pub(super) fn show_case(&self, case: &str, spent: f64) {
+        if !self.bar.is_hidden() {
+            self.bar.set_position((spent.clamp(0.0, 1.0) * STEPS as f64) as u64);
+            self.bar.set_message(case.to_owned());
+        }
+    }
+
     /// Shows how far a try is.
     pub(super) fn try_at(&self, time: f64, fraction: f64) {
         if !self.bar.is_hidden() {

@@ -12,6 +12,7 @@ mod little_endian;
 pub mod npz;
 pub mod plot;
 mod report;
+mod study;
 pub mod vtk;
 pub mod whole;
 
@@ -22,4 +23,5 @@ pub use fields::{FieldFormat, FieldSeries, write_fields};
 pub use html::{Page, RunPage, write_run_page};
 pub use plot::{Figure, write_plot};
 pub use report::{LawReport, Report, StabilityReport};
+pub use study::{check_study_folder, write_study};
 pub use whole::{WholeFolder, check_folder, sweep_folder, write_file, write_file_synced};

@@ -7,6 +7,7 @@
 mod axis;
 mod curve;
 mod panel;
+mod study;
 
 use super::{OutputError, write_file};
 use crate::record::{History, HistoryRow, Profile, Units};
@@ -19,6 +20,8 @@ use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
 use plotters::prelude::SVGBackend;
 use std::io::Write;
 use std::path::Path;
+
+pub(super) use study::write_study_plot;
 
 /// Size of the figure in pixels.
 const SIZE: (u32, u32) = (1000, 700);
@@ -75,10 +78,15 @@ fn draw(figure: &Figure<'_>) -> Result<String, DrawingFailure> {
     }
     sheet.present()?;
     drop(sheet);
-    let fine = format!("width=\"{}\" height=\"{}\" viewBox", fine_size.0, fine_size.1);
+    Ok(shown(&svg, SIZE))
+}
+
+/// The text of a fine sheet as it is shown at the size of its figure.
+fn shown(svg: &str, (width, height): (u32, u32)) -> String {
+    let fine = format!("width=\"{}\" height=\"{}\" viewBox", width * FINE, height * FINE);
     let shown =
-        format!("width=\"{}\" height=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"butt\" viewBox", SIZE.0, SIZE.1);
-    Ok(svg.replacen(&fine, &shown, 1))
+        format!("width=\"{width}\" height=\"{height}\" stroke-linejoin=\"round\" stroke-linecap=\"butt\" viewBox");
+    svg.replacen(&fine, &shown, 1)
 }
 
 fn panels(figure: &Figure<'_>) -> [Panel; 4] {

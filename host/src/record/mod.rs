@@ -12,6 +12,7 @@ mod history;
 mod identity;
 mod profile;
 mod run;
+mod study;
 mod units;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
@@ -22,4 +23,8 @@ pub use history::{History, HistoryRow};
 pub use identity::{Difference, Identity, LawIdentity};
 pub use profile::{Line, Profile};
 pub use run::{Cost, End, Estimated, MemoryLine, Record, Stability};
+pub use study::{
+    Case, Cheapest, Clock, Errors, GridError, Kind, Limit, Order, Rung, Status, StudyRecord, Timing, Work, Yardstick,
+    YardstickKind,
+};
 pub use units::Units;

@@ -60,6 +60,8 @@ pub struct Stability {
     pub stiffness: Option<f64>,
     /// Smallest of the largest stable explicit steps; time. `None`: not measured, or no limit.
     pub explicit_limit: Option<f64>,
+    /// Wall time that measuring the limit took; s.
+    pub measuring_s: f64,
     /// Whether explicit steps beyond the limit were taken.
     pub is_unstable: bool,
     /// In words.

@@ -52,6 +52,14 @@ impl NamedReference {
         }
     }
 
+    /// Whether it is the answer of the cells or points themselves, and not of the continuum that a grid stands for.
+    pub fn is_of_the_points(self) -> bool {
+        match self {
+            Self::ArchardPrescribed | Self::WinklerDiscrete | Self::WinklerPoint | Self::ModeDecay => true,
+            Self::Hertz | Self::HertzScar | Self::WinklerParabola | Self::StickLimit | Self::McCollFretting => false,
+        }
+    }
+
     /// One line for the list.
     pub fn description(self) -> &'static str {
         match self {

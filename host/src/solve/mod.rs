@@ -29,5 +29,5 @@ mod sweeps;
 pub use error::{PointError, ShortStep, SolveError};
 pub use estimate::Estimate;
 pub use ladder::{Ladder, Moment, Ordinary, Outcome, OwnMethod, Pressed, Row, Stiff};
-pub use reference::{ErrorNorm, ReferenceError, compare};
+pub use reference::{ErrorNorm, Expected, ReferenceError, compare};
 pub use run::Run;

@@ -23,7 +23,7 @@ use crate::solve::inputs::Drive;
 use crate::solve::progress::Arrays;
 use crate::solve::schedule::{self, Piece, Schedule};
 use crate::solve::site::Site;
-use crate::solve::{ErrorNorm, SolveError, compare, contents, fields, reference};
+use crate::solve::{ErrorNorm, Expected, SolveError, compare, contents, fields, reference};
 use place::Place;
 
 /// Different instants between two rows at which points change sign that become events of their own; more of them are
@@ -309,13 +309,23 @@ impl<'p> Prescribed<'p> {
         record: &Record<SolveError>,
         observer: &mut (dyn Observer + Send),
     ) -> Result<Option<ErrorNorm>, SolveError> {
-        let Some(wanted) = &self.plan.reference else { return Ok(None) };
-        let (exact, name) = match wanted {
-            ReferencePlan::File(path) => (reference::from_file(path, self.ids())?, path.display().to_string()),
-            ReferencePlan::Refined => {
-                (self.refined(observer)?, "the same scene to a tolerance 100 times tighter".to_owned())
-            }
-            ReferencePlan::Exact(named) => {
+        if matches!(self.plan.reference, Some(ReferencePlan::Refined)) {
+            let wear = self.refined(observer)?;
+            return Ok(Some(compare(&record.wear, &wear, "the same scene to a tolerance 100 times tighter")));
+        }
+        let expected = self.expected(record)?;
+        Ok(expected.map(|expected| compare(&record.wear, &expected.wear, &expected.reference)))
+    }
+
+    /// What the reference that the plan names says of the points; `None` if it names none, or a refined run.
+    ///
+    /// # Errors
+    /// A reference that does not cover the scene, or cannot be read or computed.
+    pub(super) fn expected(&self, record: &Record<SolveError>) -> Result<Option<Expected>, SolveError> {
+        let (wear, reference) = match &self.plan.reference {
+            None | Some(ReferencePlan::Refined) => return Ok(None),
+            Some(ReferencePlan::File(path)) => (reference::from_file(path, self.ids())?, path.display().to_string()),
+            Some(ReferencePlan::Exact(named)) => {
                 let until = record.history.last().map_or(0.0, |row| row.time);
                 let mut pieces = Vec::new();
                 // Errors compare at represented time: with the loading that was asked for, every cycle of it.
@@ -330,7 +340,7 @@ impl<'p> Prescribed<'p> {
                 (reference::archard_prescribed(self.plan, *named, law, &sites, self.points)?, named.name().to_owned())
             }
         };
-        Ok(Some(compare(&record.wear, &exact, &name)))
+        Ok(Some(Expected { reference, wear, ..Expected::default() }))
     }
 
     fn refined(&self, observer: &mut (dyn Observer + Send)) -> Result<Vec<f64>, SolveError> {

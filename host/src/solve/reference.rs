@@ -30,6 +30,19 @@ pub struct ErrorNorm {
     pub by_field: BTreeMap<String, f64>,
 }
 
+/// What a scene should have come to, point by point; in the scene's units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Expected {
+    /// Where it is from: the name of an exact answer, or a file.
+    pub reference: String,
+    /// Wear depth `[points]`.
+    pub wear: Vec<f64>,
+    /// Contact pressure `[points]`; empty where the reference says nothing of it.
+    pub pressure: Vec<f64>,
+    /// Worn volume, where it is known better than by the points.
+    pub volume: Option<f64>,
+}
+
 /// Why a reference cannot be evaluated.
 #[derive(Debug, Error)]
 pub enum ReferenceError {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coupled::Coupled;
 use super::prescribed::Prescribed;
-use super::{ErrorNorm, Estimate, Ladder, Ordinary, SolveError};
+use super::{ErrorNorm, Estimate, Expected, Ladder, Ordinary, SolveError};
 use crate::law::Evaluator;
 use crate::plan::Plan;
 use crate::record::{Checkpoint, Geometry, MemoryLine, Observer, Record};
@@ -167,6 +167,18 @@ impl<'p> Run<'p> {
         match &self.kind {
             Kind::Prescribed(run) => run.estimate(record, observer),
             Kind::Coupled(run) => run.estimate(record, observer),
+        }
+    }
+
+    /// What the reference that the plan names says of the points at the time that a record has reached; `None` if it names
+    /// none, or one that says nothing of single points (a refined run, published depths).
+    ///
+    /// # Errors
+    /// A reference that does not cover the scene, or cannot be read or computed.
+    pub fn expected(&self, record: &Record<SolveError>) -> Result<Option<Expected>, SolveError> {
+        match &self.kind {
+            Kind::Prescribed(run) => run.expected(record),
+            Kind::Coupled(run) => run.expected(record),
         }
     }
 

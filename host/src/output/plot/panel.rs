@@ -10,11 +10,11 @@ use plotters::style::{FontStyle, IntoFont, RGBColor, ShapeStyle, TextStyle};
 const FONT: &str = "Helvetica Neue, Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif";
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x26, 0x2b);
 pub(super) const QUIET: RGBColor = RGBColor(0x5a, 0x62, 0x6b);
-const AXIS: RGBColor = RGBColor(0x8a, 0x92, 0x9b);
-const GRID: RGBColor = RGBColor(0xe4, 0xe7, 0xeb);
+pub(super) const AXIS: RGBColor = RGBColor(0x8a, 0x92, 0x9b);
+pub(super) const GRID: RGBColor = RGBColor(0xe4, 0xe7, 0xeb);
 // Okabe and Ito (2008), "Color Universal Design": blue and vermillion.
-const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xb2);
-const VERMILLION: RGBColor = RGBColor(0xd5, 0x5e, 0x00);
+pub(super) const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xb2);
+pub(super) const VERMILLION: RGBColor = RGBColor(0xd5, 0x5e, 0x00);
 
 type Failure = super::DrawingFailure;
 
@@ -127,12 +127,12 @@ fn dot(sheet: &Sheet<'_>, at: (f64, f64), look: Look) -> Result<(), Failure> {
     }
 }
 
-fn line(sheet: &Sheet<'_>, points: &[(f64, f64)], colour: RGBColor, width: f64) -> Result<(), Failure> {
+pub(super) fn line(sheet: &Sheet<'_>, points: &[(f64, f64)], colour: RGBColor, width: f64) -> Result<(), Failure> {
     let points: Vec<_> = points.iter().map(|&at| fine(at)).collect();
     sheet.draw(&PathElement::new(points, stroke(colour, width)))
 }
 
-fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
+pub(super) fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
     ShapeStyle::from(colour).stroke_width((width * f64::from(FINE)).round() as u32)
 }
 
@@ -160,11 +160,11 @@ impl Style {
         Self { bold: true, ..Self::left(size, INK) }
     }
 
-    fn right(size: f64) -> Self {
+    pub fn right(size: f64) -> Self {
         Self { anchor: HPos::Right, ..Self::left(size, QUIET) }
     }
 
-    fn centred(size: f64, colour: RGBColor) -> Self {
+    pub fn centred(size: f64, colour: RGBColor) -> Self {
         Self { anchor: HPos::Center, ..Self::left(size, colour) }
     }
 }

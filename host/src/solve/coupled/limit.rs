@@ -64,6 +64,8 @@ pub(super) struct Watch {
     /// Steps that were cut, and steps that were taken although they were too long.
     cut: u64,
     beyond: u64,
+    /// Time that measuring took; not in checkpoints, because nothing depends on it.
+    spent: std::time::Duration,
 }
 
 impl System<'_> {
@@ -268,7 +270,10 @@ impl<'p> Coupled<'p> {
                 return Ok(explicit_limit(last.per_time * ratio));
             }
         }
-        let measured = system.stiffness(driven, load_given, false).map_err(advance)?;
+        let begin = std::time::Instant::now();
+        let measured = system.stiffness(driven, load_given, false).map_err(advance);
+        going.watch.spent += begin.elapsed();
+        let measured = measured?;
         let found = measured.stiffness.per_time;
         let watch = &mut going.watch;
         watch.measured = Some(watch.measured.map_or(found, |most| most.max(found)));
@@ -329,6 +334,7 @@ impl Watch {
             left_out: number("left_out")? as usize,
             cut: number("cut")? as u64,
             beyond: number("beyond")? as u64,
+            ..Watch::default()
         })
     }
 
@@ -364,6 +370,12 @@ impl Watch {
             Formula::ExplicitEuler => format!("stable: every explicit step kept its limit, {text}{left_out}"),
             _ => "stable at any step: the method is implicit; `wearlaw stability` measures the stiffness".to_owned(),
         };
-        Stability { stiffness: self.measured, explicit_limit: limit, is_unstable: self.beyond > 0, verdict }
+        Stability {
+            stiffness: self.measured,
+            explicit_limit: limit,
+            measuring_s: self.spent.as_secs_f64(),
+            is_unstable: self.beyond > 0,
+            verdict,
+        }
     }
 }

@@ -1,12 +1,14 @@
 //! How far a run on a contact that answers back is from what it should be.
 
+use std::path::Path;
+
 use super::exact::{Answer, Asked, Published};
 use super::run::Coupled;
 use crate::plan::ReferencePlan;
 use crate::record::{End, Observer, Record};
 use crate::reference::NamedReference;
 use crate::solve::reference::{compare, from_file, relative_l2};
-use crate::solve::{ErrorNorm, ReferenceError, SolveError};
+use crate::solve::{ErrorNorm, Expected, ReferenceError, SolveError};
 
 /// How much tighter the tolerance of a refined run is.
 const REFINEMENT: f64 = 1.0 / 32.0;
@@ -14,7 +16,7 @@ const REFINEMENT: f64 = 1.0 / 32.0;
 const MORE_SUBSTEPS: u64 = 16;
 
 /// What a run should have come to.
-struct Expected {
+struct Wanted {
     answer: Answer,
     name: String,
     /// Whether its pressure counts.
@@ -45,29 +47,54 @@ impl Coupled<'_> {
         observer: &mut (dyn Observer + Send),
     ) -> Result<Option<ErrorNorm>, SolveError> {
         let Some(wanted) = &self.plan.reference else { return Ok(None) };
-        let expected = match wanted {
-            ReferencePlan::File(path) => {
-                let answer = Answer { wear: from_file(path, self.ids())?, ..Answer::default() };
-                Expected { answer, name: path.display().to_string(), pressed: false }
-            }
+        let wanted = match wanted {
             ReferencePlan::Refined => self.refined(observer)?,
-            ReferencePlan::Exact(named) => {
-                let refuse = |reason| not_covered(*named, reason);
-                let asked = self.ask(*named).map_err(refuse)?;
-                let last = record.history.last();
-                if matches!(asked, Asked::Published) {
-                    let cycles = last.map_or(0.0, |row| row.cycle);
-                    return Ok(Some(published(record, &self.published(cycles).map_err(refuse)?, named.name())));
-                }
-                let answer = self.answer(&asked, last.map_or(0.0, |row| row.time)).map_err(refuse)?;
-                Expected { answer, name: named.name().to_owned(), pressed: true }
-            }
+            ReferencePlan::File(path) => self.on_file(path)?,
+            ReferencePlan::Exact(named) => match self.exactly(*named, record)? {
+                Ok(wanted) => wanted,
+                Err(depths) => return Ok(Some(published(record, &depths, named.name()))),
+            },
         };
-        Ok(Some(self.norms(record, &expected)))
+        Ok(Some(self.norms(record, &wanted)))
+    }
+
+    /// What the reference that the plan names says of the cells; `None` if it names none or says nothing of single cells.
+    pub(in crate::solve) fn expected(&self, record: &Record<SolveError>) -> Result<Option<Expected>, SolveError> {
+        let wanted = match &self.plan.reference {
+            None | Some(ReferencePlan::Refined) => return Ok(None),
+            Some(ReferencePlan::File(path)) => self.on_file(path)?,
+            Some(ReferencePlan::Exact(named)) => match self.exactly(*named, record)? {
+                Ok(wanted) => wanted,
+                Err(_) => return Ok(None),
+            },
+        };
+        let Answer { wear, pressure, volume, .. } = wanted.answer;
+        Ok(Some(Expected { reference: wanted.name, wear, pressure, volume }))
+    }
+
+    fn on_file(&self, path: &Path) -> Result<Wanted, SolveError> {
+        let answer = Answer { wear: from_file(path, self.ids())?, ..Answer::default() };
+        Ok(Wanted { answer, name: path.display().to_string(), pressed: false })
+    }
+
+    /// What an exact answer says of the cells, or what was published of the deepest.
+    fn exactly(
+        &self,
+        named: NamedReference,
+        record: &Record<SolveError>,
+    ) -> Result<Result<Wanted, Published>, SolveError> {
+        let refuse = |reason| not_covered(named, reason);
+        let asked = self.ask(named).map_err(refuse)?;
+        let last = record.history.last();
+        if matches!(asked, Asked::Published) {
+            return Ok(Err(self.published(last.map_or(0.0, |row| row.cycle)).map_err(refuse)?));
+        }
+        let answer = self.answer(&asked, last.map_or(0.0, |row| row.time)).map_err(refuse)?;
+        Ok(Ok(Wanted { answer, name: named.name().to_owned(), pressed: true }))
     }
 
     /// All norms of the difference between a record and an answer on the cells.
-    fn norms(&self, record: &Record<SolveError>, Expected { answer, name, pressed }: &Expected) -> ErrorNorm {
+    fn norms(&self, record: &Record<SolveError>, Wanted { answer, name, pressed }: &Wanted) -> ErrorNorm {
         let cells = self.solved.cells;
         let mut error = compare(&record.wear, &answer.wear, name);
         let mut also = |name: &str, value: f64| error.by_field.insert(name.to_owned(), value);
@@ -99,7 +126,7 @@ impl Coupled<'_> {
     }
 
     /// The same scene in many more steps, and to a tighter contact tolerance.
-    fn refined(&self, observer: &mut (dyn Observer + Send)) -> Result<Expected, SolveError> {
+    fn refined(&self, observer: &mut (dyn Observer + Send)) -> Result<Wanted, SolveError> {
         let mut plan = self.plan.clone();
         let mut solved = self.solved.clone();
         plan.output.fields.clear();
@@ -110,7 +137,7 @@ impl Coupled<'_> {
         match finer.end {
             End::Failed(error) => Err(error),
             End::Interrupted => Err(SolveError::Interrupted),
-            _ => Ok(Expected {
+            _ => Ok(Wanted {
                 answer: Answer { wear: finer.wear, pressure: finer.pressure, ..Answer::default() },
                 name: "the same scene in many more steps".to_owned(),
                 pressed: true,
