@@ -119,9 +119,31 @@ fn a_failure_tells_its_author_what_to_do_and_can_be_run_again() {
     assert_eq!(of(&again, name)["input"], of(&first, name)["input"], "the same input at the first try");
     assert_eq!(of(&first, name)["rule"]["section"], "The contract");
 
-    // With the fault mended the replay passes.
+    let quiet = run(here.path(), &[&words[..], &["-q"]].concat());
+    let (code, lines) = (quiet.code, quiet.stdout.lines().collect::<Vec<_>>());
+    assert_eq!((code, lines.len()), (1, 2), "a line for the failure and the last line: {}", quiet.stdout);
+    assert!(lines[0].contains("FAIL       values/negative-pressure") && lines[0].ends_with("negative pressure wears"));
+
+    // With the fault mended the replay passes, and the next check takes the file away.
     library(here.path(), "mine", "");
     assert_eq!(run(here.path(), &["check", "mine.so", "--replay", replay]).code, 0);
+    assert!(here.path().join(replay).exists());
+    assert_eq!(run(here.path(), &["check", "mine.so", "--only", "batch", "--quick"]).code, 0);
+    assert!(here.path().join(replay).exists(), "it is of a check that was not run");
+    assert_eq!(run(here.path(), &words).code, 0);
+    assert!(!here.path().join("mine.check").exists());
+}
+
+#[test]
+fn what_quick_leaves_out_is_told_of_what_was_meant() {
+    let here = folder();
+    let left_out = |words: &[&str]| {
+        let text = run(here.path(), &[&["check", "archard", "--only"], words].concat()).stdout;
+        text.lines().find_map(|line| line.strip_prefix("left out by --quick: ").map(str::to_owned))
+    };
+    assert_eq!(left_out(&["values/zero-dt,derivative"]), None);
+    assert_eq!(left_out(&["derivative", "--quick"]), None);
+    assert_eq!(left_out(&["batch/empty,batch/large", "--quick"]).as_deref(), Some("batch/large"));
 }
 
 #[test]
@@ -261,6 +283,16 @@ fn sources_are_built_and_every_law_of_a_library_is_checked() {
     let ended = run(here.path(), &["check", "mine.c", "--only", "values/expected"]);
     assert_eq!(ended.code, 1, "the value is off: {}", ended.stdout);
     for words in ["expected.csv, row 1: increment does not come out", "found     increment 2.5", "2.6e-9 to 1e-12"] {
+        assert!(ended.stdout.contains(words), "{words} in {}", ended.stdout);
+    }
+    // A row may say that the law refuses it, and is shown with all that it gives.
+    let head = "K,H,pressure,slip,dt,time,absolute_zero,status,increment";
+    write(here.path(), "expected.csv", &format!("{head}\n1e-4,2e9,inf,1e-3,1,2,-273.15,3,\n"));
+    let words = ["check", "mine.c", "--only", "values/expected"];
+    assert_eq!(run(here.path(), &words).code, 0);
+    write(here.path(), "expected.csv", &format!("{head}\n1e-4,2e9,1,1e-3,1,2,-273.15,3,\n"));
+    let ended = run(here.path(), &words);
+    for words in ["row 1 is answered", "found     status 0", "status 3\n", "dt 1, absolute_zero -273.15, time 2\n"] {
         assert!(ended.stdout.contains(words), "{words} in {}", ended.stdout);
     }
     assert!(!here.path().join("libmine.so").exists(), "what is built on the way goes again");

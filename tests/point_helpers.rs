@@ -116,14 +116,15 @@ fn every_language_gives_the_same_bits_at_every_step_and_batch() {
         let i = 400;
         let x = |step: i64, offset: usize| case.values[offset + i * step as usize];
         let scale = if optional { x(scalar, 6) - -273.15 } else { 3.0 };
-        let slope = x(constant, 1) * x(vector, 6) * x(scalar, 2) * x(0, 3) * scale;
+        let slip = x(vector, 5) + 2.0 * x(vector, 6) + 3.0 * x(vector, 7);
+        let slope = x(constant, 1) * slip * x(scalar, 2) * x(0, 3) * scale;
         let slope = if case.states[i] == WL_OPEN { 0.0 } else { slope };
         assert_eq!(right.slope[i], slope);
         assert_eq!(right.increment[i], slope * x(scalar, 0));
         assert_eq!(right.end[2 * i], case.start[2 * i] + right.increment[i]);
         assert_eq!(right.end[2 * i + 1], case.start[2 * i + 1] + 1.0);
-        assert_eq!(right.direction[3 * i], if optional { x(vector, 9) } else { -x(vector, 4) });
-        assert_eq!(right.direction[3 * i + 1], -x(vector, 5));
+        let direction = if optional { [9, 7, 8].map(|k| x(vector, k)) } else { [4, 5, 6].map(|k| -x(vector, k)) };
+        assert_eq!(right.direction[3 * i..3 * i + 3], direction);
         for (source, law) in &laws {
             assert!(case.run(law, 0, n, how, ALL) == right, "{}: other bits", source.display());
             assert!(case.run(law, 0, n, how, ALL | WL_OUT_STATUS) == right, "{}: with statuses", source.display());

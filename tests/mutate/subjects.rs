@@ -33,7 +33,7 @@ impl Subject {
 
     /// Whether it is a source of Fortran.
     pub fn is_fortran(&self) -> bool {
-        self.file.extension().is_some_and(|ending| ending == "f90" || ending == "inc")
+        is_fortran(&self.name())
     }
 
     /// Whether it is a law in a language whose compiler needs no second for it.
@@ -97,6 +97,11 @@ impl Subject {
     }
 }
 
+/// Whether a file is a source of Fortran, by its name.
+pub fn is_fortran(file: &str) -> bool {
+    [".f90", ".inc"].iter().any(|ending| file.ends_with(ending))
+}
+
 /// Root of the repository.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().expect("the repository is there")
@@ -156,7 +161,8 @@ pub fn subjects() -> Vec<Subject> {
             "plugin-api/src/sdk/point.rs",
             &[("impl<T: PointLaw>", "/// A point at which nothing")],
             &[],
-        ),
+        )
+        .by_everything("everything.rs", "everything-rust"),
         Subject::new(archard, "plugins/archard/src/law.rs", &[("fn evaluate(", "#[cfg(test)]")], archard_law)
             .declaring("Quantity::new", "const DEGREE"),
     ];

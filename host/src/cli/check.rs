@@ -14,7 +14,7 @@ use super::console::Console;
 use super::interrupt::Interrupt;
 use super::opening::{library_name, temporary};
 use crate::conformance::{
-    CheckOptions, ConformanceError, Event, Expected, Replay, Report, TIMEOUT, Waivers, report, run, select,
+    Check, CheckOptions, ConformanceError, Event, Expected, Replay, Report, TIMEOUT, Waivers, report, run, select,
 };
 use crate::error::{Error, UsageError};
 use crate::exit_code::ExitCode;
@@ -40,11 +40,14 @@ pub(super) fn command(console: &Console, arguments: &CheckArguments) -> Result<E
         // What is no law at all ends here, before any of its code has run.
         FileFacts::read(path)?;
     }
+    let meant = select(&arguments.only)?;
+    let is_run = |check: &Check| !arguments.quick || check.facts().quick;
     let mut options = CheckOptions {
         law: found.law,
         expected: arguments.expected.clone().map_or(found.expected, Expected::File),
         options: arguments.options.clone(),
-        selected: select(&arguments.only, arguments.quick)?,
+        selected: meant.iter().copied().filter(is_run).collect(),
+        left_out: meant.iter().copied().filter(|check| !is_run(check)).collect(),
         waivers: arguments.waive.as_deref().map(Waivers::read).transpose()?.unwrap_or_default(),
         seed: arguments.seed,
         quick: arguments.quick,
@@ -64,7 +67,7 @@ pub(super) fn command(console: &Console, arguments: &CheckArguments) -> Result<E
     match format {
         ReportFormat::Json => console.document(&report::json(&checked, typed))?,
         ReportFormat::Junit => console.result(&report::junit(&checked, typed))?,
-        ReportFormat::Text if console.quiet => console.result(&report::summary(&checked))?,
+        ReportFormat::Text if console.quiet => console.result(&report::quiet(&checked))?,
         ReportFormat::Text => console.result(&report::text(&checked, &options, typed))?,
     }
     Ok(if checked.passes() { ExitCode::Done } else { ExitCode::FallsShort })

@@ -239,7 +239,7 @@ Batch {
         ["The contract"] "the host splits a substep into batches as it likes; a law never looks at other points";
     BatchEmpty "batch/empty" quick "no points: nothing is read or written, and the answer is WL_OK"
         ["The contract"] "a batch may hold any number of points, none too";
-    BatchOdd "batch/odd" quick "batches of 2 to 67 points answer as single points do, remainders of loops included"
+    BatchOdd "batch/odd" quick "batches of 2 to 67 points, and around 128 to 1024, answer as single points do"
         ["The contract"] "a batch may hold any number of points, none too";
     BatchLarge "batch/large" full "a batch of 1e6 points answers as its parts do"
         ["The contract"] "a batch may hold any number of points, none too";
@@ -247,7 +247,7 @@ Batch {
         ["The fields"] "a column with step 0 holds one value for all points";
     BatchStridedFields "batch/strided-fields" quick "a field with gaps between its points (step 3 and more) answers as without"
         ["The fields"] "the step of a column is the number of values from one point to the next";
-    BatchPerPointConstants "batch/per-point-constants" quick "constants given for every point answer as given once"
+    BatchPerPointConstants "batch/per-point-constants" quick "constants given for every point, all or some, answer as given once"
         ["The fields"] "a constant is a column as any field";
     BatchStridedConstants "batch/strided-constants" quick "constants with gaps between their points answer as without"
         ["The fields"] "a constant is a column as any field";
@@ -311,6 +311,8 @@ Physics {
         ["The fields"] "the wear direction points into the worn body";
     PhysicsUnits "physics/units" quick "other base units rescale the answer as the declared units say"
         ["The descriptor"] "the law answers the same in every consistent set of units";
+    PhysicsTemperatureScale "physics/temperature-scale" quick "a temperature scale with another zero leaves the answer"
+        ["Temperature"] "a law that needs the absolute temperature takes temperature - absolute_zero";
 }
 Cost {
     CostPerPoint "cost/per-point" full "time per point at n = 1, 64, 1024 and 1e6 (told, never a failure)"

@@ -104,6 +104,8 @@ pub struct CheckOptions {
     pub expected: Expected,
     /// The checks to run.
     pub selected: Vec<Check>,
+    /// Checks that were meant too, and that `--quick` leaves out: the report names them.
+    pub left_out: Vec<Check>,
     /// Checks that are switched off, with their reasons.
     pub waivers: Waivers,
     /// Seed of the random inputs.
@@ -131,6 +133,7 @@ impl CheckOptions {
             options: None,
             expected: Expected::Nowhere,
             selected: Check::ALL.to_vec(),
+            left_out: Vec::new(),
             waivers: Waivers::default(),
             seed: 1,
             quick: false,

@@ -122,6 +122,7 @@ fn after(check: Check) -> &'static [Check] {
         PhysicsZeroWithoutPressure => &[ValuesZeroPressure],
         PhysicsZeroWithoutSlip => &[ValuesZeroSlip],
         PhysicsUnits => &[ThreadsInterleaved, ValuesFinite],
+        PhysicsTemperatureScale => &[ThreadsInterleaved, ValuesFinite, PhysicsUnits],
         PhysicsPressureDegree => &[ThreadsInterleaved, ValuesFinite, BatchSingles],
         PhysicsDirectionInward => &[PhysicsDirectionLength],
         CostPerPoint | CostSubnormals => &[MemoryUndeclared, BatchLarge],

@@ -83,6 +83,27 @@ impl Replay {
         Ok(path)
     }
 
+    /// Removes what an earlier run has written to a folder for the checks that are run now, and the folder if that was all.
+    ///
+    /// # Errors
+    /// A file cannot be removed.
+    pub(super) fn clear(folder: &Path, options: &CheckOptions) -> Result<(), ConformanceError> {
+        let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
+        for path in
+            entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "json"))
+        {
+            // What is no replay file belongs to somebody else.
+            let Ok(replay) = Self::read(&path) else { continue };
+            let is_meant = options.law.is_none() || replay.law.is_none() || options.law == replay.law;
+            if is_meant && options.selected.contains(&replay.check) {
+                std::fs::remove_file(&path).map_err(|source| ConformanceError::Write { path, source })?;
+            }
+        }
+        // Not where something is left.
+        let _ = std::fs::remove_dir(folder);
+        Ok(())
+    }
+
     /// Reads the file.
     ///
     /// # Errors
@@ -142,6 +163,31 @@ mod tests {
         replay.apply(&mut fresh);
         assert_eq!((fresh.selected.as_slice(), fresh.seed), ([Check::ValuesFinite].as_slice(), 42));
         assert_eq!(fresh.law.as_deref(), Some("archard"));
+    }
+
+    #[test]
+    fn what_an_earlier_run_has_left_goes() {
+        let folder = tempfile::tempdir().unwrap();
+        let left = |folder: &Path| std::fs::read_dir(folder).map_or(0, Iterator::count);
+        let result = |law: &str, check| {
+            let outcome = Outcome::Fail(Finding::new("it is wrong"));
+            CheckResult { law: Some(law.to_owned()), check, outcome, seconds: 0.5, replay: None }
+        };
+        let mut options = CheckOptions::new(Source::Embedded("archard".to_owned()));
+        let place = folder.path().join("archard.check");
+        for (law, check) in [("a", Check::ValuesFinite), ("a", Check::BatchOdd), ("b", Check::ValuesFinite)] {
+            Replay::of(&result(law, check), &options, None, None).unwrap().write(&place).unwrap();
+        }
+        std::fs::write(place.join("notes.json"), "{}").unwrap();
+        (options.selected, options.law) = (vec![Check::ValuesFinite], Some("a".to_owned()));
+        Replay::clear(&place, &options).unwrap();
+        assert_eq!(left(&place), 3, "only what is run again");
+        options = CheckOptions::new(Source::Embedded("archard".to_owned()));
+        Replay::clear(&place, &options).unwrap();
+        assert_eq!(left(&place), 1, "the notes stay");
+        std::fs::remove_file(place.join("notes.json")).unwrap();
+        Replay::clear(&place, &options).unwrap();
+        assert!(!place.exists());
     }
 
     #[test]

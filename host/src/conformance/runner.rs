@@ -27,6 +27,9 @@ pub fn run(
     stop: &AtomicBool,
 ) -> Result<Report, ConformanceError> {
     let start = Instant::now();
+    if let Some(folder) = &options.replays {
+        Replay::clear(folder, options)?;
+    }
     let runner = Runner::new(options, on, stop)?;
     let laws = runner.run()?;
     let mut results = runner.into_results();

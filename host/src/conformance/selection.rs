@@ -3,13 +3,13 @@
 use super::check::{Check, Group};
 use super::error::ConformanceError;
 
-/// The checks that `names` stand for, all if there are none; `quick` leaves out those that take long.
+/// The checks that `names` stand for, all if there are none.
 ///
 /// A name is a check's (`values/finite`) or a group's (`values`); several may stand in one word, with commas.
 ///
 /// # Errors
 /// A name that neither a check nor a group has.
-pub fn select(names: &[String], quick: bool) -> Result<Vec<Check>, ConformanceError> {
+pub fn select(names: &[String]) -> Result<Vec<Check>, ConformanceError> {
     let mut wanted: Vec<Check> = Vec::new();
     for name in names.iter().flat_map(|word| word.split(',')).map(str::trim).filter(|name| !name.is_empty()) {
         let found: Vec<Check> = Check::ALL
@@ -23,8 +23,7 @@ pub fn select(names: &[String], quick: bool) -> Result<Vec<Check>, ConformanceEr
         wanted.extend(found);
     }
     let all = names.is_empty();
-    let selected = Check::ALL.iter().copied().filter(|check| all || wanted.contains(check));
-    Ok(selected.filter(|check| !quick || check.facts().quick).collect())
+    Ok(Check::ALL.iter().copied().filter(|check| all || wanted.contains(check)).collect())
 }
 
 /// A name that differs by a slip of the fingers.
@@ -40,26 +39,23 @@ pub(super) fn nearest(name: &str) -> Option<String> {
 mod tests {
     use super::*;
 
-    fn names(words: &[&str], quick: bool) -> Vec<&'static str> {
+    fn names(words: &[&str]) -> Vec<&'static str> {
         let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
-        select(&words, quick).unwrap().into_iter().map(Check::name).collect()
+        select(&words).unwrap().into_iter().map(Check::name).collect()
     }
 
     #[test]
     fn names_and_groups_select_in_the_order_of_the_report() {
-        assert_eq!(names(&[], false).len(), Check::ALL.len());
-        assert_eq!(names(&["values/finite,load/opens"], false), ["load/opens", "values/finite"]);
-        assert_eq!(names(&["derivative", "derivative/kinks"], false).len(), 3);
-        let quick = names(&[], true);
-        assert!(quick.len() < Check::ALL.len() && !quick.contains(&"cost/per-point"));
-        assert!(names(&["cost"], true).is_empty());
+        assert_eq!(names(&[]).len(), Check::ALL.len());
+        assert_eq!(names(&["values/finite,load/opens"]), ["load/opens", "values/finite"]);
+        assert_eq!(names(&["derivative", "derivative/kinks"]).len(), 3);
     }
 
     #[test]
     fn an_unknown_name_suggests_the_nearest() {
-        let error = select(&["values/finit".to_owned()], false).unwrap_err().to_string();
+        let error = select(&["values/finit".to_owned()]).unwrap_err().to_string();
         assert!(error.contains("`values/finit`") && error.contains("did you mean `values/finite`?"), "{error}");
-        let error = select(&["nonsense".to_owned()], false).unwrap_err().to_string();
+        let error = select(&["nonsense".to_owned()]).unwrap_err().to_string();
         assert!(error.contains("--list") && !error.contains("did you mean"), "{error}");
     }
 }

@@ -113,6 +113,7 @@ void fill_view(law_handle *h, const job *j, wl_view *view, wl_column *constants)
     view->dimension = 3;
     view->time = view->step_time = j->time;
     view->dt = j->dt;
+    view->absolute_zero = j->absolute_zero;
     view->load_step = 1;
     view->substep = j->substep;
     view->unit_metre = j->unit[0];

@@ -30,6 +30,7 @@ typedef struct law_handle {
 typedef struct job {
     int64_t points;
     double time, dt;
+    double absolute_zero; /* in the scale of the temperatures */
     int64_t substep;
     double unit[4]; /* sizes of metre, kilogram, second, kelvin; 0: not stated */
     double *field[FIELDS];

@@ -104,7 +104,8 @@ static void direction(law_handle *h, int inward) {
 
 int probe_physics(const char *name, const char *path) {
     static const int slips[] = {1, 2, 3, 11};
-    if (strncmp(name, "physics/", 8) != 0 || strcmp(name, "physics/units") == 0) {
+    if (strncmp(name, "physics/", 8) != 0 || strcmp(name, "physics/units") == 0 ||
+        strcmp(name, "physics/temperature-scale") == 0) {
         return 0;
     }
     law_handle *h = open_law(path);

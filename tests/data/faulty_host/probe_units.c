@@ -1,4 +1,4 @@
-/* probe_units.c: the same body in other base units wears the same. */
+/* probe_units.c: the same body in other base units, or in degrees Celsius, wears the same. */
 #include "probe.h"
 
 /* Exponents of metre, kilogram, second and kelvin of the fields, in the order of their bits. */
@@ -22,13 +22,37 @@ static double factor_of(law_handle *h, int32_t kind, int64_t index, const double
     return factor((double[]){q.metre, q.kilogram, q.second, q.kelvin}, units);
 }
 
+enum { POINTS = 50 };
+
+/* The temperatures in degrees Celsius; no law here has a temperature among its constants. */
+static void celsius(law_handle *h) {
+    job *kelvin = make_job(h, POINTS, 1), *other = part_of(h, kelvin, NULL, POINTS);
+    other->absolute_zero = -273.15;
+    for (int f = 7; f <= 8; ++f) {
+        for (int64_t i = 0; other->field[f] && i < POINTS; ++i) {
+            other->field[f][i] -= 273.15;
+        }
+    }
+    reply *r = evaluate(h, make_instance(h), kelvin, all_outputs(h));
+    reply *s = evaluate(h, make_instance(h), other, all_outputs(h));
+    for (int64_t i = 0; i < POINTS; ++i) {
+        if (fabs(s->increment[i] - r->increment[i]) > 1e-9 * fabs(r->increment[i])) {
+            bad("in degrees Celsius the wear is %g times that in kelvin", s->increment[i] / r->increment[i]);
+        }
+    }
+}
+
 int probe_units(const char *name, const char *path) {
-    enum { POINTS = 50 };
     static const double millimetres[4] = {1e-3, 1e3, 10, 2};
-    if (strcmp(name, "physics/units") != 0) {
+    int scale = strcmp(name, "physics/temperature-scale") == 0;
+    if (strcmp(name, "physics/units") != 0 && !scale) {
         return 0;
     }
     law_handle *h = open_law(path);
+    if (scale) {
+        celsius(h);
+        return 1;
+    }
     job *si = make_job(h, POINTS, 1);
     for (int k = 0; k < 4; ++k) {
         si->unit[k] = 1;

@@ -69,6 +69,19 @@ static void extremes(law_handle *h) {
     }
 }
 
+/* A state variable and a field that are each finite, and their sum is not. */
+static void sums(law_handle *h) {
+    for (int f = 0; f < FIELDS; ++f) {
+        for (int64_t k = 0; k < h->states; ++k) {
+            job *j = make_job(h, 1, 1);
+            if (j->field[f] && width_of(f) == 1) {
+                j->field[f][0] = j->state[k] = 1.7e308;
+                answered(h, j, "a state variable near the largest number");
+            }
+        }
+    }
+}
+
 static void bounds(law_handle *h) {
     for (int64_t k = 0; k < h->constants; ++k) {
         wl_quantity q = {sizeof q};
@@ -111,6 +124,7 @@ int probe_values(const char *name, const char *path) {
         }
     } else if (strcmp(name, "values/extremes") == 0) {
         extremes(h);
+        sums(h);
     } else if (strcmp(name, "values/bounds") == 0) {
         bounds(h);
     } else {

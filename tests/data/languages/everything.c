@@ -15,11 +15,14 @@
 
 WL_POINT {
     double scale = WL_HAS(in, temperature) ? in->temperature - in->call->absolute_zero : 3;
-    double slope = c->k * in->slip_vector[1] * in->film * in->humidity * scale;
+    double slip = in->slip_vector[0] + 2 * in->slip_vector[1] + 3 * in->slip_vector[2];
+    double slope = c->k * slip * in->film * in->humidity * scale;
     out->d_pressure = in->contact_state == WL_OPEN ? 0 : slope;
     out->increment = out->d_pressure * in->pressure;
     if (WL_HAS(in, tangent)) {
         out->direction[0] = in->tangent[2];
+        out->direction[1] = in->tangent[0];
+        out->direction[2] = in->tangent[1];
     }
     out->state.total = s->total + out->increment;
     out->state.calls = s->calls + 1;

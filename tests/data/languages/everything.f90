@@ -19,12 +19,13 @@ contains
     real(c_double), intent(in) :: c(*)
     real(c_double), intent(inout) :: s(*)
     type(wl_out), intent(inout) :: out
-    real(c_double) :: scale
+    real(c_double) :: scale, slip
     scale = 3
     if (wl_has(in, WL_FIELD_TEMPERATURE)) scale = in%temperature - in%absolute_zero
-    if (in%contact_state /= WL_OPEN) out%d_pressure = c(1) * in%slip_vector(2) * in%input(1) * in%input(2) * scale
+    slip = in%slip_vector(1) + 2 * in%slip_vector(2) + 3 * in%slip_vector(3)
+    if (in%contact_state /= WL_OPEN) out%d_pressure = c(1) * slip * in%input(1) * in%input(2) * scale
     out%increment = out%d_pressure * in%pressure
-    if (wl_has(in, WL_FIELD_TANGENT)) out%direction(1) = in%tangent(3)
+    if (wl_has(in, WL_FIELD_TANGENT)) out%direction = [in%tangent(3), in%tangent(1), in%tangent(2)]
     s(1) = s(1) + out%increment
     s(2) = s(2) + 1
     out%dt_factor = 0.25_c_double

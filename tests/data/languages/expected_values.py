@@ -1,4 +1,5 @@
-"""Writes plugins/example-{c,cpp,fortran}/expected.csv: the closed forms of their READMEs in 60-digit decimals.
+"""Writes plugins/example-{c,cpp,fortran}/expected.csv: the closed forms of their READMEs in 60-digit decimals; and
+everything.csv, for the laws `everything` beside this file.
 
 Run from the root of the repository with any Python 3; nothing beyond its standard library is needed.
 """
@@ -13,13 +14,17 @@ PLUGINS = Path(__file__).resolve().parents[3] / "plugins"
 
 
 def exact(row):
-    """The doubles of a row as the decimals that they are."""
-    return {key: Decimal(value) for key, value in row.items()}
+    """The doubles of a row as the decimals that they are; what is not given as None."""
+    return {key: None if value == "" else Decimal(value) for key, value in row.items()}
 
 
-def write(folder, rows, answer):
-    rows = [{**row, **{key: repr(float(value)) for key, value in answer(exact(row)).items()}} for row in rows]
-    with open(PLUGINS / folder / "expected.csv", "w", newline="") as file:
+def text(value):
+    return value if value == "" else repr(float(value))
+
+
+def write(path, rows, answer):
+    rows = [{**row, **{key: text(value) for key, value in answer(exact(row)).items()}} for row in rows]
+    with open(path, "w", newline="") as file:
         table = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
         table.writeheader()
         table.writerows(rows)
@@ -47,6 +52,41 @@ def dissipated_work(x):
     return {"increment": x["alpha"] * max(x["friction_work"], Decimal(0))}
 
 
+def everything(x):
+    pressure = x["pressure"]
+    status = 2 if pressure > 10**8 else 1 if pressure > 9 * 10**7 else 5 if pressure < -1 else 0
+    names = ["increment", "d_pressure", "total_end", "calls_end", "direction_x", "direction_y", "direction_z"]
+    if status > 1:
+        return {"status": status, **{name: "" for name in names}}
+    warm = x["temperature"]
+    scale = 3 if warm is None else warm - x["absolute_zero"]
+    slip = x["slip_vector_x"] + 2 * x["slip_vector_y"] + 3 * x["slip_vector_z"]
+    slope = 0 if x["contact_state"] == 0 else x["k"] * slip * x["film"] * x["humidity"] * scale
+    turned = [x["tangent_z"], x["tangent_x"], x["tangent_y"]]
+    if turned[0] is None:
+        turned = [-x[f"normal_{axis}"] for axis in "xyz"]
+    wear = slope * pressure
+    answers = [wear, slope, x["total_start"] + wear, x["calls_start"] + 1, *turned]
+    return {"status": status, **dict(zip(names, answers))}
+
+
+def everything_rows():
+    numbers = [0.37, 1.25, -0.81, 2.6, 0.055, 7.3, -1.9, 0.68, 3.1, -0.42, 5.7, 0.93, 1.61]
+    pressures = [1.0, 3.5e6, 9.5e7, 2e8, -0.5, -2.0, 8.1e3]
+    for row in range(28):
+        x = [numbers[(3 * row + at) % 13] * (1 + row / 64) for at in range(13)]
+        warm, turned, numbered = row % 2 == 0, row % 4 < 2, row % 3 == 0
+        yield {
+            "k": abs(x[0]) / 16, "film": abs(x[1]), "humidity": x[2], "total_start": x[3], "calls_start": float(row),
+            "pressure": pressures[row % 7], "contact_state": row % 3,
+            "slip_vector_x": x[4], "slip_vector_y": x[5], "slip_vector_z": x[6],
+            "normal_x": x[7], "normal_y": x[8], "normal_z": x[9],
+            "temperature": 20.0 + x[10] if warm else "",
+            "tangent_x": x[11] if turned else "", "tangent_y": x[12] if turned else "", "tangent_z": x[0] if turned else "",
+            "point_id": row if numbered else "", "absolute_zero": [0.0, -273.15][row % 4 // 2], "dt": 0.5,
+        }  # fmt: skip
+
+
 def threshold_rows():
     for pressure in [-1e6, 0.0, 4e6, 5e6, 5.000001e6, 8e7, 1.3e9, 1e300]:
         for slip in [0.0, 1e-12, 3.7e-5, 2.5]:
@@ -71,6 +111,7 @@ def dissipated_work_rows():
             yield {"alpha": alpha, "friction_work": work, "dt": 1e-3}
 
 
-write("example-c", list(threshold_rows()), threshold)
-write("example-cpp", list(running_in_rows()), running_in)
-write("example-fortran", list(dissipated_work_rows()), dissipated_work)
+write(PLUGINS / "example-c/expected.csv", list(threshold_rows()), threshold)
+write(PLUGINS / "example-cpp/expected.csv", list(running_in_rows()), running_in)
+write(PLUGINS / "example-fortran/expected.csv", list(dissipated_work_rows()), dissipated_work)
+write(Path(__file__).parent / "everything.csv", list(everything_rows()), everything)

@@ -1,27 +1,32 @@
 //! Any split, order and layout of the points must give the same answers.
 
+use wearlaw_plugin_api::abi::{WL_CUT_STEP, WL_OK};
+
 use super::super::harness::arrays::Room;
-use super::super::harness::call::{Answers, Asked, Call, Layout, Spread};
+use super::super::harness::call::{Answers, Asked, Call, Layout};
 use super::super::harness::closeness::AtPoint;
-use super::super::harness::points::{Case, Point};
+use super::super::harness::points::{Case, number_text};
 use super::super::harness::subject::{Instance, Law};
-use super::super::message::{Judged, Verdict, broken, skip};
+use super::super::message::{Judged, Verdict, broken};
 use super::super::outcome::Finding;
-use super::bench::{Bench, Differences, POINTS, ask, still_good};
-use super::extremes::is_unit_vector;
-use crate::law::{Field, Fields};
+use super::bench::{Bench, Differences, POINTS, ask, not_finite, still_good};
+use super::faults::{odd_cases, odd_points, wild_point};
+use crate::law::Fields;
+
+/// Points whose fields run over all decades, in a batch of ordinary ones.
+const WILD: usize = 40;
 
 /// A case with the answers to each of its points alone.
-struct Known<'a> {
+pub(super) struct Known<'a> {
     law: &'a Law<'a>,
     instance: &'a Instance<'a>,
-    case: Case,
-    layout: Layout,
+    pub(super) case: Case,
+    pub(super) layout: Layout,
     single: Vec<AtPoint>,
 }
 
 impl<'a> Known<'a> {
-    fn of(law: &'a Law<'a>, instance: &'a Instance<'a>, case: Case, asked: Asked) -> Judged<Self> {
+    pub(super) fn of(law: &'a Law<'a>, instance: &'a Instance<'a>, case: Case, asked: Asked) -> Judged<Self> {
         let layout = Layout { asked, ..Layout::plain(&law.about) };
         let mut single = Vec::new();
         for point in 0..case.count {
@@ -33,8 +38,34 @@ impl<'a> Known<'a> {
         Ok(Self { law, instance, case, layout, single })
     }
 
+    /// These points, and behind them odd ones that the law answers too.
+    fn with_odd_points(&self, bench: &Bench) -> Judged<Self> {
+        let about = &self.law.about;
+        let mut sampler = bench.sampler(self.law, &[]);
+        let mut odd = odd_points(about, &self.case.single(0));
+        odd.extend((0..WILD).map(|_| wild_point(&mut sampler, about, &self.case.single(0))));
+        odd.retain(|single| {
+            let answers = ask(about, self.instance, single, &self.layout);
+            answers.is_good() && not_finite(&answers, 0).is_none()
+        });
+        let points = self.case.points.iter().cloned().chain(odd.into_iter().flat_map(|single| single.points)).collect();
+        let case = Case::new(self.case.numbers, self.case.constants.clone(), points);
+        Self::of(self.law, self.instance, case, self.layout.asked)
+    }
+
+    /// The fields that the law reads or uses.
+    pub(super) fn fields(&self) -> Fields {
+        self.law.about.fields()
+    }
+
     /// Compares a batch of these points, by their indices, with the points alone.
-    fn compare(&self, indices: &[usize], layout: &Layout, what: &str, differences: &mut Differences) -> Judged<()> {
+    pub(super) fn compare(
+        &self,
+        indices: &[usize],
+        layout: &Layout,
+        what: &str,
+        differences: &mut Differences,
+    ) -> Judged<()> {
         let case = self.case.pick(indices);
         let answers = ask(&self.law.about, self.instance, &case, layout);
         self.judge(indices, &case, &answers, what, differences)
@@ -61,12 +92,17 @@ impl<'a> Known<'a> {
 }
 
 /// Runs `work` with good points known one by one, for every way of asking.
-fn over_ways(bench: &Bench, count: usize, work: impl Fn(&Known<'_>, &mut Differences) -> Judged<()>) -> Judged {
+pub(super) fn over_ways(
+    bench: &Bench,
+    count: usize,
+    work: impl Fn(&Known<'_>, &mut Differences) -> Judged<()>,
+) -> Judged {
     bench.with(|law, instance| {
-        let case = bench.good(law, instance, count)?;
         let mut differences = Differences::default();
-        for asked in Asked::ways(&law.about) {
-            work(&Known::of(law, instance, case.clone(), asked)?, &mut differences)?;
+        for case in bench.goods(law, instance, count)? {
+            for asked in Asked::ways(&law.about) {
+                work(&Known::of(law, instance, case.clone(), asked)?, &mut differences)?;
+            }
         }
         differences.judge(&law.about)
     })
@@ -76,14 +112,26 @@ fn all(count: usize) -> Vec<usize> {
     (0..count).collect()
 }
 
-/// A batch against its points.
+/// The indices of `count` points, which are `different` ones over and over.
+pub(super) fn over_and_over(different: usize, count: usize) -> Vec<usize> {
+    (0..count).map(|index| index % different).collect()
+}
+
+/// A batch against its points, ordinary ones and odd ones among them.
 pub(super) fn singles(bench: &Bench) -> Judged {
     over_ways(bench, POINTS, |known, differences| {
         for count in [1, 2, POINTS / 2, POINTS, 8 * POINTS, 16 * POINTS] {
-            let indices: Vec<usize> = (0..count).map(|index| index % POINTS).collect();
+            let indices = over_and_over(POINTS, count);
             known.compare(&indices, &known.layout, &format!("a batch of {count} points"), differences)?;
         }
-        Ok(())
+        let known = known.with_odd_points(bench)?;
+        let (ordinary, count) = (all(POINTS), known.case.count);
+        for odd in POINTS..count {
+            let mut indices = ordinary.clone();
+            indices[(5 * odd) % POINTS] = odd;
+            known.compare(&indices, &known.layout, "a batch of ordinary points and an odd one", differences)?;
+        }
+        known.compare(&all(count), &known.layout, "a batch of ordinary points and odd ones", differences)
     })
 }
 
@@ -129,7 +177,7 @@ pub(super) fn empty(bench: &Bench) -> Judged {
             for asked in Asked::ways(&law.about) {
                 let layout = Layout { room, asked, text: Some(64), ..Layout::plain(&law.about) };
                 let answers = ask(&law.about, instance, &case, &layout);
-                if answers.status != wearlaw_plugin_api::abi::WL_OK {
+                if answers.status != WL_OK {
                     let finding = Finding::new("a batch without points is refused");
                     return broken(finding.with(format!("status {}", answers.status), "status 0 (WL_OK)"));
                 }
@@ -139,11 +187,13 @@ pub(super) fn empty(bench: &Bench) -> Judged {
     })
 }
 
-/// Batches of 2 to 67 points.
+/// Batches of 2 to 67 points, and of about as many as the blocks that a law may work in.
 pub(super) fn odd(bench: &Bench) -> Judged {
     over_ways(bench, 67, |known, differences| {
-        for count in (2..=33).chain([47, 63, 64, 65, 67]) {
-            known.compare(&all(count), &known.layout, &format!("a batch of {count} points"), differences)?;
+        let blocks = [128, 256, 512, 1024].into_iter().flat_map(|block| [block - 1, block, block + 1]);
+        for count in (2..=33).chain([47, 63, 64, 65, 67]).chain(blocks) {
+            let indices = over_and_over(known.case.count, count);
+            known.compare(&indices, &known.layout, &format!("a batch of {count} points"), differences)?;
         }
         Ok(())
     })
@@ -191,141 +241,6 @@ pub(super) fn large(bench: &Bench) -> Judged {
     })
 }
 
-/// Points that share the values of some fields, given once or at every point.
-fn shared(case: &Case, fields: Fields) -> Case {
-    let first: Point = case.point(0).clone();
-    case.map(|point| {
-        for field in fields.iter() {
-            point.set_vector(field, first.real(field));
-            point.set_index(field, first.index(field));
-        }
-    })
-}
-
-/// Each field, and all together, given once.
-pub(super) fn uniform_fields(bench: &Bench) -> Judged {
-    bench.with(|law, instance| {
-        let about = &law.about;
-        if about.fields().is_empty() && about.inputs.is_empty() {
-            return skip("the law reads no fields");
-        }
-        let case = bench.good(law, instance, POINTS)?;
-        let mut differences = Differences::default();
-        let sets = about.fields().iter().map(|field| Fields::EMPTY.with(field)).chain([about.fields()]);
-        for fields in sets {
-            // A unit vector and what depends on it are taken from one point.
-            let with_vectors = fields.iter().any(is_unit_vector) || fields == about.fields();
-            let every: Fields = Field::ALL.iter().copied().filter(|field| field.shape().width() == 3).collect();
-            let case = shared(&case, if with_vectors { fields.union(every) } else { fields });
-            for asked in Asked::ways(about) {
-                let layout = Layout { asked, ..Layout::plain(about) };
-                let expected = ask(about, instance, &case, &layout);
-                if !expected.is_good() {
-                    // These values do not go together.
-                    continue;
-                }
-                let answers = ask(about, instance, &case, &Layout { uniform: fields, ..layout });
-                let what = format!("{fields} given once (step 0) instead of at every point");
-                still_good(about, &case, &answers, &what)?;
-                for point in 0..case.count {
-                    differences.note(expected.at(point).difference(&answers.at(point)), || {
-                        Finding::new(what.clone()).at(case.named(about, point))
-                    });
-                }
-            }
-        }
-        uniform_inputs(law, instance, &case, &mut differences)?;
-        differences.judge(about)
-    })
-}
-
-fn uniform_inputs(law: &Law<'_>, instance: &Instance<'_>, case: &Case, differences: &mut Differences) -> Judged<()> {
-    let about = &law.about;
-    if about.inputs.is_empty() {
-        return Ok(());
-    }
-    let inputs = case.point(0).inputs.clone();
-    let case = case.map(|point| point.inputs.clone_from(&inputs));
-    let layout = Layout::plain(about);
-    let expected = ask(about, instance, &case, &layout);
-    if !expected.is_good() {
-        return Ok(());
-    }
-    let answers = ask(about, instance, &case, &Layout { inputs: Spread::Uniform, ..layout });
-    let what = "inputs given once (step 0) instead of at every point";
-    still_good(about, &case, &answers, what)?;
-    for point in 0..case.count {
-        differences.note(expected.at(point).difference(&answers.at(point)), || {
-            Finding::new(what).at(case.named(about, point))
-        });
-    }
-    Ok(())
-}
-
-/// Fields, inputs and state with gaps between their points.
-pub(super) fn strided_fields(bench: &Bench) -> Judged {
-    over_ways(bench, 2 * POINTS - 1, |known, differences| {
-        for times in [3, 2, 7] {
-            let spread = Spread::Strided(times);
-            let layout = Layout { fields: spread, inputs: spread, ..known.layout };
-            let what = format!("fields whose values lie {times} times their width apart");
-            known.compare(&all(known.case.count), &layout, &what, differences)?;
-        }
-        Ok(())
-    })
-}
-
-/// Points with constants of their own, against each alone.
-fn with_constants_at(bench: &Bench, spreads: &[Spread], what: &str) -> Judged {
-    bench.with(|law, instance| {
-        let about = &law.about;
-        if about.constants.is_empty() {
-            return skip("the law has no constants");
-        }
-        let mut case = bench.good(law, instance, POINTS)?;
-        let known = bench.known_constants(law);
-        let mut sampler = bench.sampler(law, &known);
-        let mut each = Vec::new();
-        for point in 0..case.count {
-            // Constants that go with this point; the shared ones do in any case.
-            let mut single = case.single(point);
-            for _ in 0..10 {
-                single.constants = sampler.constants();
-                let answers = ask(about, instance, &single, &Layout::plain(about));
-                if answers.is_good() && super::bench::not_finite(&answers, 0).is_none() {
-                    break;
-                }
-                single.constants.clone_from(&case.constants);
-            }
-            each.push(single.constants);
-        }
-        case.constants_at = Some(each);
-        let same = Case { constants_at: Some(vec![case.constants.clone()]), ..case.clone() };
-        let mut differences = Differences::default();
-        for asked in Asked::ways(about) {
-            for case in [&case, &same] {
-                let known = Known::of(law, instance, case.clone(), asked)?;
-                for constants in spreads {
-                    let layout = Layout { constants: *constants, ..known.layout };
-                    known.compare(&all(case.count), &layout, what, &mut differences)?;
-                }
-            }
-        }
-        differences.judge(about)
-    })
-}
-
-/// Constants at every point.
-pub(super) fn per_point_constants(bench: &Bench) -> Judged {
-    with_constants_at(bench, &[Spread::PerPoint], "constants given for every point")
-}
-
-/// Constants with gaps.
-pub(super) fn strided_constants(bench: &Bench) -> Judged {
-    let spreads = [Spread::Strided(3), Spread::Strided(2)];
-    with_constants_at(bench, &spreads, "constants with gaps between their points")
-}
-
 /// Statuses asked for or not, also where some points are refused.
 pub(super) fn status_array(bench: &Bench) -> Judged {
     bench.with(|law, instance| {
@@ -336,12 +251,14 @@ pub(super) fn status_array(bench: &Bench) -> Judged {
         let mut differences = Differences::default();
         let known = bench.known_constants(law);
         let mut sampler = bench.sampler(law, &known);
-        let odd = super::faults::odd_cases(&mut sampler, about, 20);
+        let odd = odd_cases(&mut sampler, about, 20);
         let mut mixed = vec![case.clone()];
-        for other in odd.chunks(5) {
-            let mut case = case.clone();
+        for (turn, other) in odd.chunks(5).enumerate() {
+            // Every other time beyond the first block of a law that works in blocks.
+            let before = if turn % 2 == 0 { 0 } else { AHEAD };
+            let mut case = case.pick(&over_and_over(POINTS, before + POINTS));
             for (at, other) in other.iter().enumerate() {
-                case.points[3 * at + 1] = other.points[0].clone();
+                case.points[before + 3 * at + 1] = other.points[0].clone();
             }
             mixed.push(case);
         }
@@ -358,6 +275,7 @@ pub(super) fn status_array(bench: &Bench) -> Judged {
                 let finding = Finding::new("the call does not return the worst status of its points").at(input());
                 return broken(finding.with(format!("status {}", told.status), format!("status {worst}")));
             }
+            places(law, instance, &case, [&silent, &told], &told.point_status)?;
             for point in (0..case.count).filter(|point| told.is_good_at(*point) && silent.is_good()) {
                 differences.note(silent.at(point).difference(&told.at(point)), || {
                     Finding::new("asking for statuses changes a value").at(case.named(about, point))
@@ -366,4 +284,38 @@ pub(super) fn status_array(bench: &Bench) -> Judged {
         }
         differences.judge(about)
     })
+}
+
+/// Points ahead of the refused ones: more than a block of the helpers has.
+const AHEAD: usize = 259;
+
+/// The statuses stand at their points, and the first bad point is one that is bad.
+fn places(law: &Law<'_>, instance: &Instance<'_>, case: &Case, answers: [&Answers; 2], statuses: &[i32]) -> Judged<()> {
+    let about = &law.about;
+    for (point, status) in statuses.iter().copied().enumerate() {
+        let alone = match status {
+            // Looked at where it is read anyway.
+            WL_OK if point < AHEAD && case.count > AHEAD => continue,
+            _ => ask(about, instance, &case.single(point), &Layout::plain(about)).status,
+        };
+        if alone != status {
+            let what = format!("point {point} of {} has another status than alone", case.count);
+            let finding = Finding::new(what).at(case.named(about, point));
+            return broken(finding.with(format!("status {status}"), format!("status {alone}")));
+        }
+    }
+    for answers in answers {
+        let is_bad = |first: i64| usize::try_from(first).is_ok_and(|at| statuses.get(at).is_some_and(|s| *s != WL_OK));
+        if answers.status != WL_OK && answers.first_bad != -1 && !is_bad(answers.first_bad) {
+            let finding = Finding::new("`first_bad` is no point that is bad").at(case.named(about, 0));
+            let expected = "the index of a bad point, or -1 as before the call";
+            return broken(finding.with(format!("first_bad {}", answers.first_bad), expected));
+        }
+        if answers.status == WL_CUT_STEP && !(0.0..1.0).contains(&answers.dt_factor) {
+            let finding = Finding::new("a shorter substep is asked for by a factor that shortens none");
+            let found = format!("dt_factor {}", number_text(answers.dt_factor));
+            return broken(finding.with(found, "in (0, 1), or 0 as before the call").at(case.named(about, 0)));
+        }
+    }
+    Ok(())
 }

@@ -86,6 +86,18 @@ impl Bench {
         }
     }
 
+    /// As [`Bench::good`], and the same where the constants with a default keep it, if there are such points.
+    pub(super) fn goods(&self, law: &Law<'_>, instance: &Instance<'_>, count: usize) -> Judged<Vec<Case>> {
+        let mut cases = vec![self.good(law, instance, count)?];
+        if law.about.constants.iter().any(|constant| constant.default.is_some()) {
+            let known = self.known_constants(law);
+            let mut sampler = self.sampler(law, &known);
+            sampler.at_defaults = true;
+            cases.extend(sampler.good(instance, count));
+        }
+        Ok(cases)
+    }
+
     /// Says on the slate what the body is about.
     pub(super) fn label(&self, words: &str) {
         self.slate.label(words);

@@ -5,7 +5,7 @@ use std::ffi::{CStr, c_char};
 
 use wearlaw_plugin_api::abi;
 
-use super::super::harness::call::{Call, Given, Layout};
+use super::super::harness::call::{Call, Given, Layout, good};
 use super::super::harness::closeness::{Difference, ulps};
 use super::super::harness::points::{Case, Point, number_text};
 use super::super::harness::subject::Law;
@@ -66,10 +66,39 @@ impl Table {
         self.heads.iter().position(|name| name == head).and_then(|column| self.rows[row].get(column)).copied()
     }
 
-    /// The different sets of constants in the table, where it has all of them and they keep their bounds.
+    /// The status that a row has to be answered with.
+    fn status(&self, row: usize) -> Result<i32, String> {
+        let status = self.get(row, STATUS).filter(|value| !value.is_nan()).unwrap_or_default();
+        let known = (abi::WL_OK..=abi::WL_FAILED).find(|known| f64::from(*known) == status);
+        known.ok_or_else(|| {
+            format!(
+                "{}, row {}: status {}, expected {} to {}",
+                self.origin,
+                row + 1,
+                status,
+                abi::WL_OK,
+                abi::WL_FAILED
+            )
+        })
+    }
+
+    /// The inputs of a row, as a report shows them: also the numbers of the call that the table gives.
+    fn inputs(&self, row: usize, case: &Case, law: &LawDescriptor) -> Vec<(String, String)> {
+        let mut named = case.named(law, 0);
+        for head in NUMBERS {
+            if let Some(value) =
+                self.get(row, head).filter(|value| !value.is_nan() && !named.iter().any(|n| n.0 == head))
+            {
+                named.push((head.to_owned(), number_text(value)));
+            }
+        }
+        named
+    }
+
+    /// The different sets of constants of the rows that are answered, where the table has all and they keep their bounds.
     pub(super) fn constants(&self, law: &LawDescriptor) -> Vec<Vec<f64>> {
         let mut sets: Vec<Vec<f64>> = Vec::new();
-        for row in 0..self.rows.len() {
+        for row in (0..self.rows.len()).filter(|row| self.status(*row).is_ok_and(good)) {
             let set: Option<Vec<f64>> = law
                 .constants
                 .iter()
@@ -138,10 +167,12 @@ fn first_head(field: Field) -> String {
 
 /// Numbers of the call that a table may give.
 const NUMBERS: [&str; 4] = ["dt", "time", "absolute_zero", "reference_temperature"];
+/// The column of the status that a row is answered with; there is none: all are good.
+const STATUS: &str = "status";
 
 fn known_heads(law: &LawDescriptor) -> Vec<String> {
     let mut known: Vec<String> = NUMBERS.map(str::to_owned).to_vec();
-    known.extend(["increment", "d_pressure"].map(str::to_owned));
+    known.extend([STATUS, "increment", "d_pressure"].map(str::to_owned));
     known.extend(law.constants.iter().chain(&law.inputs).map(|quantity| quantity.name.clone()));
     known.extend(law.fields().iter().flat_map(|field| heads_of(field.name(), field.shape().width())));
     known.extend(heads_of("direction", 3));
@@ -171,11 +202,21 @@ pub(super) fn expected(bench: &Bench) -> Judged {
             if let Some(refusal) = beyond(about, &case) {
                 return broken(Finding::new(format!("{name}: {refusal}, so no host gives it to the law")));
             }
-            if answers.status != abi::WL_OK {
-                let how = if answers.is_good() { "is answered as unreliable" } else { "is refused" };
-                let finding = Finding::new(format!("{name} {how}")).at(case.named(about, 0));
-                let expected = format!("status {} and the values of the row", abi::WL_OK);
-                return broken(finding.with(format!("status {}", answers.status), expected));
+            let status = table.status(row).or_else(|reason| broken(Finding::new(reason)))?;
+            let input = || table.inputs(row, &case, about);
+            if answers.status != status {
+                let how = match answers.status {
+                    abi::WL_OK => "is answered",
+                    abi::WL_UNRELIABLE => "is answered as unreliable",
+                    _ => "is refused",
+                };
+                let finding = Finding::new(format!("{name} {how}")).at(input());
+                let values = if good(status) { " and the values of the row" } else { "" };
+                return broken(finding.with(format!("status {}", answers.status), format!("status {status}{values}")));
+            }
+            if !good(status) {
+                compared += 1;
+                continue;
             }
             for (head, found, direction) in named(about, &answers.at(0)) {
                 let Some(expected) = table.get(row, &head).filter(|value| !value.is_nan()) else { continue };
@@ -187,7 +228,7 @@ pub(super) fn expected(bench: &Bench) -> Judged {
                 }
                 let item =
                     Difference { item: "", one: found, other: expected, ulps: ulps(found, expected), small: false };
-                let finding = Finding::new(format!("{name}: {head} does not come out")).at(case.named(about, 0));
+                let finding = Finding::new(format!("{name}: {head} does not come out")).at(input());
                 return broken(finding.with(
                     format!("{head} {}", number_text(item.one)),
                     format!("{head} {} to {TOLERANCE:e}", number_text(item.other)),
@@ -245,6 +286,22 @@ mod tests {
         assert_eq!((case.constants[0], case.point(0).scalar(Field::Pressure), case.numbers.dt), (1e-4, 5e7, 1.0));
         assert!(absent.is_empty());
         assert!(table.case(1, &law).1.contains(Field::Pressure));
+    }
+
+    #[test]
+    fn a_row_may_be_refused_and_is_shown_with_all_that_it_gives() {
+        let law = archard();
+        let text = "K,H,pressure,velocity,dt,time,absolute_zero,status,increment\n1,1,inf,1,1,3,-273.15,3,\n\
+                    2,1,1,1,1,0,0,,2\n3,1,1,1,1,0,0,2.5,2\n";
+        let table = Table::parse(text, "t").unwrap();
+        assert_eq!(table.misfit(&law), None);
+        assert_eq!((table.status(0), table.status(1)), (Ok(abi::WL_OUT_OF_DOMAIN), Ok(abi::WL_OK)));
+        assert!(table.status(2).unwrap_err().contains("row 3: status 2.5"));
+        assert_eq!(table.constants(&law), [[2.0, 1.0, 1.0, 1.0]], "those that something is known of");
+        let shown = table.inputs(0, &table.case(0, &law).0, &law);
+        for (name, value) in [("dt", "1"), ("time", "3"), ("absolute_zero", "-273.15")] {
+            assert_eq!(shown.iter().filter(|(n, v)| n == name && v == value).count(), 1, "{name} in {shown:?}");
+        }
     }
 
     #[test]

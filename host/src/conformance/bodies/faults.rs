@@ -33,26 +33,12 @@ pub(super) fn odd_cases(sampler: &mut Sampler<'_>, law: &LawDescriptor, wild: us
     let numbers = sampler.numbers();
     let constants = sampler.constants();
     let ordinary = Case::new(numbers, constants, vec![sampler.point(numbers.dt)]);
-    let mut cases = Vec::new();
-    for field in law.fields().iter().filter(|field| !is_unit_vector(*field)) {
-        for value in ODD {
-            cases.push(ordinary.map(|point| {
-                (0..field.shape().width()).for_each(|component| point.set(field, component, value));
-                point.set_index(field, value as i64);
-            }));
-        }
-    }
+    let mut cases = odd_points(law, &ordinary);
     for value in ODD {
         for (index, _) in law.constants.iter().enumerate().filter(|(_, constant)| constant.allows(value)) {
             let mut case = ordinary.clone();
             case.constants[index] = value;
             cases.push(case);
-        }
-        for (index, _) in law.state.iter().enumerate().filter(|(_, variable)| variable.allows(value)) {
-            cases.push(ordinary.map(|point| point.state[index] = value));
-        }
-        for index in 0..law.inputs.len() {
-            cases.push(ordinary.map(|point| point.inputs[index] = value));
         }
         if value >= 0.0 && value.is_finite() {
             let mut case = ordinary.clone();
@@ -61,20 +47,44 @@ pub(super) fn odd_cases(sampler: &mut Sampler<'_>, law: &LawDescriptor, wild: us
         }
     }
     for _ in 0..wild {
-        let mut case = ordinary.clone();
+        let mut case = wild_point(sampler, law, &ordinary);
         case.constants = law.constants.iter().map(|constant| sampler.wide(constant)).collect();
-        let random = &mut sampler.random;
-        case = case.map(|point| {
-            for field in law.fields().iter().filter(|field| !is_unit_vector(*field)) {
-                let sign = if random.unit() < 0.2 { -1.0 } else { 1.0 };
-                for component in 0..field.shape().width() {
-                    point.set(field, component, sign * random.decades(1e-300, 1e300));
-                }
-            }
-        });
         cases.push(case);
     }
     cases
+}
+
+/// The point of a case with an odd value of one field, state variable or input that a host could give.
+pub(super) fn odd_points(law: &LawDescriptor, ordinary: &Case) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for value in ODD {
+        for field in law.fields().iter().filter(|field| !is_unit_vector(*field)) {
+            cases.push(ordinary.map(|point| {
+                (0..field.shape().width()).for_each(|component| point.set(field, component, value));
+                point.set_index(field, value as i64);
+            }));
+        }
+        for (index, _) in law.state.iter().enumerate().filter(|(_, variable)| variable.allows(value)) {
+            cases.push(ordinary.map(|point| point.state[index] = value));
+        }
+        for index in 0..law.inputs.len() {
+            cases.push(ordinary.map(|point| point.inputs[index] = value));
+        }
+    }
+    cases
+}
+
+/// The point of a case with fields that run over all decades.
+pub(super) fn wild_point(sampler: &mut Sampler<'_>, law: &LawDescriptor, ordinary: &Case) -> Case {
+    let random = &mut sampler.random;
+    ordinary.map(|point| {
+        for field in law.fields().iter().filter(|field| !is_unit_vector(*field)) {
+            let sign = if random.unit() < 0.2 { -1.0 } else { 1.0 };
+            for component in 0..field.shape().width() {
+                point.set(field, component, sign * random.decades(1e-300, 1e300));
+            }
+        }
+    })
 }
 
 /// Runs every kind of input through the law in a thread with a usual stack; coming back is all that is asked.

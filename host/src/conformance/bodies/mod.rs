@@ -17,8 +17,10 @@ mod leaks;
 mod load;
 mod memory;
 mod physics;
+mod spread;
 mod state;
 mod structs;
+mod temperature;
 mod threads;
 mod units;
 mod values;
@@ -85,10 +87,10 @@ pub(super) fn run(check: Check, bench: &Bench) -> Judged {
         Check::BatchEmpty => batch::empty(bench),
         Check::BatchOdd => batch::odd(bench),
         Check::BatchLarge => batch::large(bench),
-        Check::BatchUniformFields => batch::uniform_fields(bench),
-        Check::BatchStridedFields => batch::strided_fields(bench),
-        Check::BatchPerPointConstants => batch::per_point_constants(bench),
-        Check::BatchStridedConstants => batch::strided_constants(bench),
+        Check::BatchUniformFields => spread::uniform_fields(bench),
+        Check::BatchStridedFields => spread::strided_fields(bench),
+        Check::BatchPerPointConstants => spread::per_point_constants(bench),
+        Check::BatchStridedConstants => spread::strided_constants(bench),
         Check::BatchStatus => batch::status_array(bench),
         Check::MemoryAfter => memory::after(bench),
         Check::MemoryBefore => memory::before(bench),
@@ -115,6 +117,7 @@ pub(super) fn run(check: Check, bench: &Bench) -> Judged {
         Check::PhysicsDirectionLength => physics::direction_length(bench),
         Check::PhysicsDirectionInward => physics::direction_inward(bench),
         Check::PhysicsUnits => units::units(bench),
+        Check::PhysicsTemperatureScale => temperature::scale(bench),
         Check::CostPerPoint => cost::per_point(bench),
         Check::CostSubnormals => cost::subnormals(bench),
     }

@@ -24,7 +24,9 @@ pub(super) fn view_of(law: &LawDescriptor, case: &Case, layout: &Layout, arrays:
     let constants: Vec<_> = (0..law.constants.len())
         .map(|index| {
             let name = &law.constants[index].name;
-            lay(arrays, name, case, layout.constants, 1, |case, point, _| case.constants(point)[index])
+            let once = layout.constant_alone.is_some_and(|alone| alone != index);
+            let spread = if once { Spread::Uniform } else { layout.constants };
+            lay(arrays, name, case, spread, 1, |case, point, _| case.constants(point)[index])
         })
         .collect();
     let inputs: Vec<_> = (0..law.inputs.len())
@@ -60,7 +62,11 @@ fn lay_field(
     field: Field,
 ) {
     let many = case.count > MANY && !law.fields().contains(field);
-    let spread = if layout.uniform.contains(field) || many { Spread::Uniform } else { layout.fields };
+    let spread = match layout.spread.contains(field) {
+        _ if layout.uniform.contains(field) || many => Spread::Uniform,
+        true => layout.fields,
+        false => Spread::PerPoint,
+    };
     if field.shape() == Shape::Index {
         let column = lay(arrays, field.name(), case, spread, 1, |case, point, _| {
             // The bits of the integer, as the array has room for words.
@@ -79,8 +85,7 @@ fn lay_field(
 
 fn lay_state(arrays: &mut Arrays, case: &Case, layout: &Layout, variables: usize) -> abi::Column {
     let value = |case: &Case, point: usize, variable: usize| case.point(point).state[variable];
-    let spread = if layout.fields == Spread::Uniform { Spread::PerPoint } else { layout.fields };
-    lay_sealed(arrays, "state (start)", case, spread, variables, layout.state_sealed, value)
+    lay_sealed(arrays, "state (start)", case, layout.state, variables, layout.state_sealed, value)
 }
 
 fn lay(

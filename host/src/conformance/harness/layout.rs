@@ -1,7 +1,7 @@
 //! How a call is laid out: which fields are given and how they lie, what is asked for, and what is around the arrays.
 
 use super::arrays::Room;
-use crate::law::{Fields, LawDescriptor, OutputItem};
+use crate::law::{Field, Fields, LawDescriptor, OutputItem};
 
 /// How the values of a column lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,12 +51,15 @@ impl Asked {
         Self { status: true, ..Self::values(law) }
     }
 
-    /// Every way of asking that hosts use: with and without derivative, with and without statuses.
+    /// Every way of asking that hosts use: with and without derivative, with and without statuses, the increment alone.
     pub(crate) fn ways(law: &LawDescriptor) -> Vec<Self> {
         let all = Self::values(law);
         let mut ways = vec![all, Self { status: true, ..all }];
         if all.d_pressure {
             ways.push(Self { d_pressure: false, ..all });
+        }
+        if all.direction || all.state {
+            ways.push(Self::NOTHING);
         }
         ways
     }
@@ -76,10 +79,15 @@ pub(crate) struct Layout {
     pub(crate) absent: Fields,
     /// Fields that are given once for all points.
     pub(crate) uniform: Fields,
-    pub(crate) inputs: Spread,
-    /// How the other fields, and the state, lie.
+    /// Fields that lie as `fields` says; the others that are not given once lie side by side.
+    pub(crate) spread: Fields,
     pub(crate) fields: Spread,
+    pub(crate) inputs: Spread,
+    /// How the state at the start lies; never once for all points.
+    pub(crate) state: Spread,
     pub(crate) constants: Spread,
+    /// The only constant that lies as `constants` says; the others are given once.
+    pub(crate) constant_alone: Option<usize>,
     /// Doubles by which every array of doubles is moved away from an even address.
     pub(crate) skew: usize,
     /// Bytes of the buffer for a text; none: NULL.
@@ -99,9 +107,12 @@ impl Layout {
             state_sealed: false,
             absent: Fields::EMPTY,
             uniform: Fields::EMPTY,
-            inputs: Spread::PerPoint,
+            spread: Field::ALL.iter().copied().collect(),
             fields: Spread::PerPoint,
+            inputs: Spread::PerPoint,
+            state: Spread::PerPoint,
             constants: Spread::Uniform,
+            constant_alone: None,
             skew: 0,
             text: None,
             filling: 0,

@@ -147,7 +147,8 @@ impl Case {
         }
     }
 
-    /// The inputs at a point by name, as a report shows them: what the law reads, constants, `dt`.
+    /// The inputs at a point by name, as a report shows them: what the law reads, constants, `dt`, and absolute zero where
+    /// it is not at 0.
     pub(crate) fn named(&self, law: &LawDescriptor, index: usize) -> Vec<(String, String)> {
         if self.count == 0 || self.points.is_empty() {
             return vec![("points".to_owned(), "0".to_owned())];
@@ -170,6 +171,9 @@ impl Case {
             named.push((format!("{} (start)", variable.name), number_text(*value)));
         }
         named.push(("dt".to_owned(), number_text(self.numbers.dt)));
+        if self.numbers.absolute_zero != 0.0 {
+            named.push(("absolute_zero".to_owned(), number_text(self.numbers.absolute_zero)));
+        }
         named
     }
 }

@@ -12,6 +12,8 @@ pub(crate) struct Sampler<'l> {
     pub(crate) random: Random,
     /// Constants that the author computed with: known to make sense together.
     known: &'l [Vec<f64>],
+    /// Constants that have a default keep it: the law as most use it.
+    pub(crate) at_defaults: bool,
 }
 
 /// Sizes of ordinary values, by base unit: with them a pressure is 1e9 Pa, a length 1e-3 m, a temperature 300 K.
@@ -22,16 +24,23 @@ const TRIES: usize = 40;
 impl<'l> Sampler<'l> {
     /// For one law; `stream` gives each check numbers of its own.
     pub(crate) fn new(law: &'l LawDescriptor, seed: u64, stream: &str, known: &'l [Vec<f64>]) -> Self {
-        Self { law, random: Random::new(seed, stream), known }
+        Self { law, random: Random::new(seed, stream), known, at_defaults: false }
     }
 
     /// Constants within their bounds, of an ordinary size.
     pub(crate) fn constants(&mut self) -> Vec<f64> {
-        if !self.known.is_empty() && self.random.unit() < 0.5 {
-            return self.known[self.random.below(self.known.len())].clone();
-        }
         let law = self.law;
-        law.constants.iter().map(|constant| self.ordinary(constant)).collect()
+        let fits = |set: &&Vec<f64>| {
+            let mut pairs = law.constants.iter().zip(set.iter());
+            !self.at_defaults || pairs.all(|(constant, value)| constant.default.is_none_or(|default| default == *value))
+        };
+        let known: Vec<&Vec<f64>> = self.known.iter().filter(fits).collect();
+        if !known.is_empty() && self.random.unit() < 0.5 {
+            return known[self.random.below(known.len())].clone();
+        }
+        let kept = |constant: &Quantity, at_defaults: bool| constant.default.filter(|_| at_defaults);
+        let constants = law.constants.iter();
+        constants.map(|constant| kept(constant, self.at_defaults).unwrap_or_else(|| self.ordinary(constant))).collect()
     }
 
     /// A value of an ordinary size within the bounds.

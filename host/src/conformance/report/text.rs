@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use super::super::check::Check;
 use super::super::outcome::{CheckResult, Finding, Outcome};
 use super::super::{CheckOptions, Report};
 
@@ -48,14 +47,24 @@ pub fn text(report: &Report, options: &CheckOptions, law: &str) -> String {
             text.push_str(&evidence(result, finding, law));
         }
     }
-    let left_out: Vec<&str> = Check::ALL
-        .iter()
-        .filter(|check| !check.facts().quick && !options.selected.contains(check))
-        .map(|check| check.name())
-        .collect();
-    let quick = options.selected.iter().all(|check| check.facts().quick);
-    if quick && options.selected.len() > 1 && !left_out.is_empty() {
-        let _ = writeln!(text, "left out by --quick: {}", left_out.join(", "));
+    if !options.left_out.is_empty() {
+        let names: Vec<&str> = options.left_out.iter().map(|check| check.name()).collect();
+        let _ = writeln!(text, "left out by --quick: {}", names.join(", "));
+    }
+    text.push_str(&summary(report));
+    text
+}
+
+/// The report of somebody who wants no word on what is good: a line for each check that found a fault, and the last line.
+pub fn quiet(report: &Report) -> String {
+    let mut text = String::new();
+    for result in report.results.iter().filter(|result| result.outcome.falls_short()) {
+        let Some(finding) = result.outcome.finding() else { continue };
+        let law = result.law.as_deref().filter(|_| report.laws.len() > 1);
+        let law = law.map_or_else(String::new, |law| format!("law {law}: "));
+        let what = finding.what.lines().next().unwrap_or_default();
+        let name = result.outcome.name().to_uppercase();
+        let _ = writeln!(text, "  {name:<OUTCOME$}  {:<NAME$}  {law}{what}", result.check.name());
     }
     text.push_str(&summary(report));
     text
@@ -143,6 +152,7 @@ pub fn summary(report: &Report) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::check::Check;
     use super::*;
     use crate::law::Source;
 
@@ -189,8 +199,21 @@ mod tests {
     #[test]
     fn a_quick_run_says_what_it_left_out() {
         let (report, mut options) = report();
-        options.selected.retain(|check| check.facts().quick);
-        assert!(text(&report, &options, "a.so").contains("left out by --quick: load/twice, "));
+        options.selected = vec![Check::ValuesZeroDt, Check::StateEnd];
+        assert!(!text(&report, &options, "a.so").contains("left out"), "nothing that was meant");
+        options.left_out = vec![Check::LoadTwice, Check::StateRestart];
+        assert!(text(&report, &options, "a.so").contains("left out by --quick: load/twice, state/restart\n"));
+    }
+
+    #[test]
+    fn a_quiet_report_names_each_failure_in_a_line() {
+        let (mut report, _) = report();
+        let lines = "  FAIL       values/zero-dt                 a substep of no length wears\nfalls short: 1 pass, ";
+        assert!(quiet(&report).starts_with(lines), "{}", quiet(&report));
+        report.laws.push("b".to_owned());
+        assert!(quiet(&report).contains("law a: a substep of no length wears\n"), "{}", quiet(&report));
+        report.results.retain(|result| !result.outcome.falls_short());
+        assert!(quiet(&report).starts_with("passes: "), "{}", quiet(&report));
     }
 
     #[test]

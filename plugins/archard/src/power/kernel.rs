@@ -101,7 +101,8 @@ pub(super) fn conclude<const M: u8, const N: u8>(
     };
     let (r, k) = exp2(t, hi, lo, k);
     let wear = r * two_to(k);
-    let slope = m * wear / p;
+    // The sum makes every zero a positive one, as where no wear is known beforehand.
+    let slope = m * wear / p + 0.0;
 
     // 0, or not a number if p or v is not finite.
     let doubt = doubt(p) + doubt(v);
