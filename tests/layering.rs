@@ -6,14 +6,16 @@ mod sources;
 use std::path::Path;
 
 /// Each top-level module and the others of the crate that it may name.
-const MAY_USE: [(&str, &[&str]); 17] = [
+const MAY_USE: [(&str, &[&str]); 19] = [
     ("scene", &[]),
     ("reference", &[]),
     ("splitmix", &[]),
     ("contact", &["splitmix"]),
     ("record", &[]),
     ("law", &[]),
-    ("conformance", &["law", "reference", "splitmix"]),
+    ("sampling", &["law", "splitmix"]),
+    ("conformance", &["law", "reference", "sampling", "splitmix"]),
+    ("bench", &["law", "sampling"]),
     ("apdl", &["scene"]),
     ("integrator", &["law", "contact"]),
     ("stability", &["law", "contact"]),
@@ -28,9 +30,11 @@ const MAY_USE: [(&str, &[&str]); 17] = [
 ];
 
 const ALL_BUT_CLI: &[&str] = &[
+    "bench",
     "scene",
     "reference",
     "conformance",
+    "sampling",
     "splitmix",
     "contact",
     "record",

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::apdl::{DeckError, Diagnostic, LowerError};
+use crate::bench::BenchError;
 use crate::conformance::ConformanceError;
 use crate::contact::prescribed::HistoryError;
 use crate::exit_code::ExitCode;
@@ -74,6 +75,9 @@ pub enum Error {
     /// A law could not be checked at all.
     #[error(transparent)]
     Conformance(#[from] ConformanceError),
+    /// A law could not be measured.
+    #[error(transparent)]
+    Bench(#[from] BenchError),
     /// A new law's folder could not be made.
     #[error(transparent)]
     Template(#[from] TemplateError),
@@ -139,6 +143,12 @@ pub enum UsageError {
         origin: String,
         /// The names of its laws.
         known: Vec<String>,
+    },
+    /// One table of known values for several laws.
+    #[error("--expected gives the values of one law, but {laws} were named")]
+    ExpectedOfSeveral {
+        /// How many.
+        laws: usize,
     },
     /// Sources where a library belongs.
     #[error("`{}` is source code, expected a library: build it first with `wearlaw build`", path.display())]

@@ -2,10 +2,11 @@
 //!
 //! Data flows one way: [`scene`] (what was asked), [`plan`] (what will be done), [`solve`] (the only loop), [`record`]
 //! (what happened), [`output`] (its readers). [`law`] loads and calls wear laws, [`contact`] gives what drives them,
-//! [`conformance`] checks whether a law keeps its contract, [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers.
+//! [`conformance`] checks whether a law keeps its contract, [`mod@bench`] measures one by itself, [`integrator`] advances wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers.
 //! [`cli`] is the program.
 
 pub mod apdl;
+pub mod bench;
 pub mod cli;
 pub mod conformance;
 pub mod contact;
@@ -17,6 +18,7 @@ pub mod output;
 pub mod plan;
 pub mod record;
 pub mod reference;
+mod sampling;
 pub mod scene;
 pub mod solve;
 mod splitmix;
