@@ -48,6 +48,9 @@ pub enum Error {
     /// A file is no wear-law library.
     #[error(transparent)]
     File(#[from] FileFactsError),
+    /// A file that a scene names is no wear-law library.
+    #[error(transparent)]
+    LawFile(#[from] Located<FileFactsError>),
     /// A library gives no law.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -150,6 +153,18 @@ pub enum UsageError {
         /// How many.
         laws: usize,
     },
+    /// A law where a scene belongs.
+    #[error(
+        "`{0}` is {what} of a law, expected a scene: a TOML file that says under what load and how the law wears, with \
+         [law] use = \"{0}\"; `wearlaw new NAME --lang c` writes one, `wearlaw run SCENE --law {0}` takes the law in place of \
+         a scene's own", path.display()
+    )]
+    LawNotScene {
+        /// The path as typed.
+        path: PathBuf,
+        /// `a library` or `source code`.
+        what: &'static str,
+    },
     /// Sources where a library belongs.
     #[error("`{}` is source code, expected a library: build it first with `wearlaw build`", path.display())]
     SourceNotLibrary {
@@ -180,6 +195,7 @@ impl Error {
                 _ => error.render(color),
             },
             Self::Lookup(error) => error.render(color),
+            Self::LawFile(error) => error.render(color),
             Self::Deck(error @ DeckError::Command(_)) => error.render(),
             other => Located::new(printable(&other.to_string()), None).render(color),
         }
@@ -219,6 +235,7 @@ impl Error {
         match self {
             Self::Scene(error) => Some((error.problem.to_string(), error.location.as_ref())),
             Self::Lookup(error) => Some((error.problem.to_string(), error.location.as_ref())),
+            Self::LawFile(error) => Some((error.problem.to_string(), error.location.as_ref())),
             Self::Plan(error) => Some((error.problem.to_string(), error.location.as_ref())),
             _ => None,
         }

@@ -101,6 +101,7 @@ impl ExitCode {
             Error::Resume(_) | Error::Lower { .. } | Error::Usage(_) | Error::Lookup(_) => Self::InputWrong,
             Error::Build(error) => of_build(error),
             Error::File(error) => of_file(error),
+            Error::LawFile(error) => of_file(&error.problem),
             Error::Load(error) => of_loading(error),
             Error::Isolate(error) => of_isolating(error),
             Error::Bench(error) => of_measuring(error),
@@ -114,6 +115,7 @@ impl ExitCode {
             Error::History(error) => of_history(error),
             Error::Output(error) => match error {
                 OutputError::NotAResult { .. }
+                | OutputError::ForeignReport { .. }
                 | OutputError::NotAFolder { .. }
                 | OutputError::InTheWay { .. }
                 | OutputError::NotACheckpoint { .. }

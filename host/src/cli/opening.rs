@@ -52,6 +52,14 @@ pub(super) fn open(
     let (origin, source) = match found.source {
         LawSource::Embedded(name) => (format!("embedded:{name}"), Source::Embedded(name.to_owned())),
         LawSource::Library(path) => (path.display().to_string(), Source::File(path)),
+        LawSource::Source(path) if !path.exists() => {
+            let error = LookupError::NoSource { path };
+            return Err(match shared.law {
+                Some(_) => Located::new(error, None),
+                None => scene.error_at("law.use", error),
+            }
+            .into());
+        }
         LawSource::Source(path) => {
             let place = temporary()?;
             let library = place.path().join(library_name(&path));
@@ -64,7 +72,11 @@ pub(super) fn open(
         }
     };
     let facts = match &source {
-        Source::File(path) => Some(FileFacts::read(path)?),
+        Source::File(path) => Some(FileFacts::read(path).map_err(|error| match shared.law {
+            // What was typed is no place in the scene.
+            Some(_) => Error::from(error),
+            None => scene.error_at("law.use", error).into(),
+        })?),
         Source::Embedded(_) => None,
     };
     let (sha256, options, law) = (scene.law.sha256.clone(), scene.law.options.clone(), found.law);

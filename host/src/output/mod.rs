@@ -20,4 +20,4 @@ pub use error::OutputError;
 pub use fields::{FieldFormat, FieldSeries, write_fields};
 pub use plot::{Figure, write_plot};
 pub use report::{LawReport, Report, StabilityReport};
-pub use whole::{WholeFolder, check_folder, write_file, write_file_synced};
+pub use whole::{WholeFolder, check_folder, earlier_scene, write_file, write_file_synced};

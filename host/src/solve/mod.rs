@@ -15,6 +15,7 @@ mod inputs;
 mod kinematics;
 mod ladder;
 mod moment_batch;
+mod odd;
 mod prescribed;
 mod progress;
 mod reference;
