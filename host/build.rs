@@ -8,17 +8,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rustc-env=WEARLAW_TARGET={}", std::env::var("TARGET")?);
 
-    let root = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR")?).join("..").canonicalize()?;
+    // Links to what lies beside this crate, so that a package of it holds the files themselves.
+    let root = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR")?).join("carried");
     let mut code = String::new();
-    let include = carried(&root.join("include"), &root.join("include"), |_| true)?;
+    let folder = root.join("include").canonicalize()?;
+    let include = carried(&folder, &folder)?;
     table(&mut code, "CARRIED", "The files of `include/`, by their path in it", &include)?;
-    let api = root.join("plugin-api");
-    let source = carried(&api, &api, |path| {
-        path == Path::new("Cargo.toml") || path.starts_with("src") || path == Path::new("README.md")
-    })?;
+    let api = root.join("plugin-api").join("src").canonicalize()?;
+    let mut source = vec![("Cargo.toml".to_owned(), root.join("plugin-api").join("manifest.toml").canonicalize()?)];
+    source.extend(carried(&api, &api)?.into_iter().map(|(name, path)| (format!("src/{name}"), path)));
     table(&mut code, "PLUGIN_API", "The source of `wearlaw-plugin-api`, by its path in the crate", &source)?;
-    let manifest = root.join("Cargo.toml");
-    println!("cargo:rerun-if-changed={}", manifest.display());
+    let manifest = root.join("workspace.toml").canonicalize()?;
+    for file in [&source[0].1, &manifest] {
+        println!("cargo:rerun-if-changed={}", file.display());
+    }
     writeln!(
         code,
         "/// The workspace's manifest, from which the crate's inherits.\nconst WORKSPACE_MANIFEST: &str = \
@@ -29,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 /// The files below a folder, sorted, so that the same tree gives the same program.
-fn carried(folder: &Path, root: &Path, wanted: fn(&Path) -> bool) -> std::io::Result<Vec<(String, PathBuf)>> {
+fn carried(folder: &Path, root: &Path) -> std::io::Result<Vec<(String, PathBuf)>> {
     println!("cargo:rerun-if-changed={}", folder.display());
     let mut files = Vec::new();
     if !folder.is_dir() {
@@ -39,12 +42,12 @@ fn carried(folder: &Path, root: &Path, wanted: fn(&Path) -> bool) -> std::io::Re
         let path = entry?.path();
         let name = path.strip_prefix(root).unwrap_or(&path).to_path_buf();
         let hidden = path.file_name().is_none_or(|name| name.to_string_lossy().starts_with('.'));
-        if hidden || name.components().next().is_some_and(|first| first.as_os_str() == "target") {
+        if hidden {
             continue;
         }
         if path.is_dir() {
-            files.extend(carried(&path, root, wanted)?);
-        } else if wanted(&name) {
+            files.extend(carried(&path, root)?);
+        } else {
             files.push((name.to_string_lossy().replace('\\', "/"), path));
         }
     }

@@ -13,10 +13,24 @@ fn help_and_version_go_to_standard_output() {
     let here = folder();
     let help = run(here.path(), &["--help"]);
     assert_eq!((help.code, help.stderr.as_str()), (0, ""));
-    for word in ["run", "plan", "build", "new", "inspect", "apdl", "stability", "study", "check", "Exit codes", "130"] {
+    for word in [
+        "run",
+        "plan",
+        "build",
+        "new",
+        "inspect",
+        "apdl",
+        "stability",
+        "study",
+        "sweep",
+        "check",
+        "bench",
+        "Exit codes",
+        "130",
+    ] {
         assert!(help.stdout.contains(word), "{word}");
     }
-    for word in ["bench", "__worker", "__check_worker"] {
+    for word in ["__worker", "__check_worker"] {
         assert!(!help.stdout.contains(&format!("\n  {word} ")), "{word} is no command yet");
     }
     let version = run(here.path(), &["--version"]);

@@ -13,7 +13,9 @@ const MAY_USE: [(&str, &[&str]); 19] = [
     ("contact", &["splitmix"]),
     ("record", &[]),
     ("law", &[]),
-    ("conformance", &["law", "reference", "splitmix"]),
+    ("sampling", &["law", "splitmix"]),
+    ("conformance", &["law", "reference", "sampling", "splitmix"]),
+    ("bench", &["law", "sampling"]),
     ("apdl", &["scene"]),
     ("integrator", &["law", "contact"]),
     ("stability", &["law", "contact"]),
@@ -30,9 +32,11 @@ const MAY_USE: [(&str, &[&str]); 19] = [
 ];
 
 const ALL_BUT_CLI: &[&str] = &[
+    "bench",
     "scene",
     "reference",
     "conformance",
+    "sampling",
     "splitmix",
     "contact",
     "record",

@@ -9,9 +9,8 @@ mod support;
 use std::cell::{RefCell, RefMut};
 use std::hint::black_box;
 
-use support::placed::{Placed, Slices};
 use support::raw::{Columns, RawLaw};
-use support::timing::{Side, Times, columns, in_turns, is_measured, pool, triad_on};
+use support::timing::{Placed, Side, Times, columns, filled, in_turns, is_measured, pool, triad_on};
 use support::{laws, scenes};
 use wearlaw::law::{
     Batch, CallNumbers, Evaluation, Evaluator, Field, IsolateOptions, IsolatedLaw, LawDescriptor, LawInstance, Outputs,
@@ -92,8 +91,9 @@ fn calls(archard: &LawInstance, raw_archard: &RawLaw, c_library: &std::path::Pat
     println!("{:>8} {}", "points", names.map(|name| format!("{name:>17}")).join(" "));
     let sizes: &[usize] = if is_measured() { &[1, 8, 64, 1024, 4096, 1_000_000] } else { &[1, 8, 1025] };
     for &points in sizes {
-        let mut place = Placed::new(points);
-        let Slices { pressure: p, velocity: v, answer } = place.slices();
+        let mut place = Placed::new(&[points; 3]);
+        let [p, v, answer] = filled(&mut place);
+        let (p, v) = (&*p, &*v);
         // One array for all: two that lie differently to what is read can differ by a third in time.
         let w = RefCell::new(answer);
         let w = || RefMut::map(w.borrow_mut(), |w| &mut **w);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::apdl::{DeckError, Diagnostic, LowerError};
+use crate::bench::BenchError;
 use crate::conformance::ConformanceError;
 use crate::contact::prescribed::HistoryError;
 use crate::exit_code::ExitCode;
@@ -49,6 +50,9 @@ pub enum Error {
     /// A file is no wear-law library.
     #[error(transparent)]
     File(#[from] FileFactsError),
+    /// A file that a scene names is no wear-law library.
+    #[error(transparent)]
+    LawFile(#[from] Located<FileFactsError>),
     /// A library gives no law.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -82,6 +86,9 @@ pub enum Error {
     /// A study could not be made.
     #[error(transparent)]
     Study(Box<StudyError>),
+    /// A law could not be measured.
+    #[error(transparent)]
+    Bench(#[from] BenchError),
     /// A new law's folder could not be made.
     #[error(transparent)]
     Template(#[from] TemplateError),
@@ -148,6 +155,24 @@ pub enum UsageError {
         /// The names of its laws.
         known: Vec<String>,
     },
+    /// One table of known values for several laws.
+    #[error("--expected gives the values of one law, but {laws} were named")]
+    ExpectedOfSeveral {
+        /// How many.
+        laws: usize,
+    },
+    /// A law where a scene belongs.
+    #[error(
+        "`{0}` is {what} of a law, expected a scene: a TOML file that says under what load and how the law wears, with \
+         [law] use = \"{0}\"; `wearlaw new NAME --lang c` writes one, `wearlaw run SCENE --law {0}` takes the law in place of \
+         a scene's own", path.display()
+    )]
+    LawNotScene {
+        /// The path as typed.
+        path: PathBuf,
+        /// `a library` or `source code`.
+        what: &'static str,
+    },
     /// Sources where a library belongs.
     #[error("`{}` is source code, expected a library: build it first with `wearlaw build`", path.display())]
     SourceNotLibrary {
@@ -190,6 +215,7 @@ impl Error {
                 _ => error.render(color),
             },
             Self::Lookup(error) => error.render(color),
+            Self::LawFile(error) => error.render(color),
             Self::Deck(error @ DeckError::Command(_)) => error.render(),
             other => Located::new(printable(&other.to_string()), None).render(color),
         }
@@ -229,6 +255,7 @@ impl Error {
         match self {
             Self::Scene(error) => Some((error.problem.to_string(), error.location.as_ref())),
             Self::Lookup(error) => Some((error.problem.to_string(), error.location.as_ref())),
+            Self::LawFile(error) => Some((error.problem.to_string(), error.location.as_ref())),
             Self::Plan(error) => Some((error.problem.to_string(), error.location.as_ref())),
             _ => None,
         }

@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 
 use crate::apdl::DeckError;
+use crate::bench::BenchError;
 use crate::conformance::ConformanceError;
 use crate::contact::prescribed::HistoryError;
 use crate::contact::surface::SurfaceError;
@@ -102,13 +103,10 @@ impl ExitCode {
             Error::Resume(_) | Error::Lower { .. } | Error::Usage(_) | Error::Lookup(_) => Self::InputWrong,
             Error::Build(error) => of_build(error),
             Error::File(error) => of_file(error),
-            Error::Load(error) if error.code_has_run() => Self::LawFailed,
-            Error::Load(LoadError::File(error)) => of_file(error),
-            Error::Load(_) => Self::InputWrong,
-            Error::Isolate(error) if error.code_has_run() => Self::LawFailed,
-            Error::Isolate(IsolateError::Start { .. }) => Self::ReadWriteFailed,
-            Error::Isolate(IsolateError::Load(LoadError::File(error))) => of_file(error),
-            Error::Isolate(_) => Self::InputWrong,
+            Error::LawFile(error) => of_file(&error.problem),
+            Error::Load(error) => of_loading(error),
+            Error::Isolate(error) => of_isolating(error),
+            Error::Bench(error) => of_measuring(error),
             Error::Evaluate(error) => of_evaluating(error),
             Error::Plan(error) => match &*error.problem {
                 PlanProblem::History(error) => of_history(error),
@@ -119,6 +117,7 @@ impl ExitCode {
             Error::History(error) => of_history(error),
             Error::Output(error) => match error {
                 OutputError::NotAResult { .. }
+                | OutputError::ForeignReport { .. }
                 | OutputError::NotAFolder { .. }
                 | OutputError::InTheWay { .. }
                 | OutputError::NotACheckpoint { .. }
@@ -150,6 +149,36 @@ impl ExitCode {
 
 fn of_history(error: &HistoryError) -> ExitCode {
     if error.is_io() { ExitCode::ReadWriteFailed } else { ExitCode::InputWrong }
+}
+
+fn of_loading(error: &LoadError) -> ExitCode {
+    match error {
+        LoadError::File(error) => of_file(error),
+        _ if error.code_has_run() => ExitCode::LawFailed,
+        _ => ExitCode::InputWrong,
+    }
+}
+
+fn of_isolating(error: &IsolateError) -> ExitCode {
+    match error {
+        IsolateError::Load(error) => of_loading(error),
+        IsolateError::Start { .. } => ExitCode::ReadWriteFailed,
+        _ if error.code_has_run() => ExitCode::LawFailed,
+        _ => ExitCode::InputWrong,
+    }
+}
+
+fn of_measuring(error: &BenchError) -> ExitCode {
+    match error {
+        BenchError::Load(error) => of_loading(error),
+        BenchError::Isolate(error) => of_isolating(error),
+        BenchError::Evaluate(error) => of_evaluating(error),
+        BenchError::NoInputs { .. } | BenchError::CutStep { .. } => ExitCode::LawFailed,
+        BenchError::Expected { .. } => ExitCode::InputWrong,
+        BenchError::Threads { .. } => ExitCode::ReadWriteFailed,
+        BenchError::Batch(_) => ExitCode::ProgramFault,
+        BenchError::Interrupted => ExitCode::Interrupted,
+    }
 }
 
 fn of_checking(error: &ConformanceError) -> ExitCode {

@@ -2,12 +2,13 @@
 //!
 //! Data flows one way: [`scene`] (what was asked), [`plan`] (what will be done), [`solve`] (the only loop), [`record`]
 //! (what happened), [`output`] (its readers). [`law`] loads and calls wear laws, [`contact`] gives what drives them,
-//! [`conformance`] checks whether a law keeps its contract, [`integrator`] advances wear in time, [`apdl`] reads the commands
-//! of an input deck, [`mod@reference`] holds exact answers, [`study`](mod@study) runs a scene in many ways and [`mod@sweep`] many
-//! cases of one. [`cli`] is the program. The book (`host/book` in the repository) shows on its page on embedding how a
-//! program of one's own runs a scene.
+//! [`conformance`] checks whether a law keeps its contract and [`mod@bench`] measures one by itself, [`integrator`] advances
+//! wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers, [`study`](mod@study) runs
+//! a scene in many ways and [`mod@sweep`] many cases of one. [`cli`] is the program. The book (`host/book` in the repository)
+//! shows on its page on embedding how a program of one's own runs a scene.
 
 pub mod apdl;
+pub mod bench;
 pub mod cli;
 pub mod conformance;
 pub mod contact;
@@ -19,6 +20,7 @@ pub mod output;
 pub mod plan;
 pub mod record;
 pub mod reference;
+mod sampling;
 pub mod scene;
 pub mod solve;
 mod splitmix;

@@ -1,4 +1,5 @@
 //! Small laws in C, compiled by the tests against `include/wearlaw.h`.
+#![allow(dead_code)] // reason: each test file uses a part of it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -142,7 +143,6 @@ impl CLaw {
     }
 
     /// A file in the same folder.
-    #[allow(dead_code)] // not every test that has these laws needs it
     pub fn file(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }

@@ -31,6 +31,10 @@ fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
         if name.starts_with('.') && name != ".github" || name == "target" || name.ends_with(".out") {
             continue;
         }
+        // What a link leads to is walked where it lies.
+        if path.is_symlink() {
+            continue;
+        }
         if path.is_dir() {
             walk(&path, found);
         } else {

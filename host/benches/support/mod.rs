@@ -5,7 +5,6 @@
 #![allow(dead_code)] // no benchmark uses all of it
 
 pub mod laws;
-pub mod placed;
 pub mod processor;
 pub mod raw;
 pub mod scenes;

@@ -72,6 +72,9 @@ pub(super) enum Command {
     /// Check that a law keeps the contract: each check in a process of its own
     #[command(after_long_help = CHECKING)]
     Check(CheckArguments),
+    /// Measure laws by themselves: ns per point, part of the memory's bandwidth, accuracy; one column per law
+    #[command(after_long_help = MEASURING)]
+    Bench(BenchArguments),
     /// Turn the TB,WEAR commands of an input deck into the law section of a scene
     Apdl(ApdlArguments),
 }
@@ -270,6 +273,34 @@ pub(super) enum ReportFormat {
 }
 
 #[derive(Debug, Clone, Args)]
+pub(super) struct BenchArguments {
+    /// Libraries, source files, crates' folders, or names of laws; LIB#NAME for one law of several
+    #[arg(value_name = "LIB", required = true)]
+    pub(super) laws: Vec<String>,
+    /// Points of a call [default: 1 to a million by tens, then four million]
+    #[arg(long, value_name = "N,..", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    pub(super) points: Vec<u32>,
+    /// Threads that share a call [default: 1 and as many as the machine has]
+    #[arg(long, value_name = "N,..", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Vec<u16>,
+    /// Seconds for all timing; what would take longer is left out [default: 10]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(super) budget: Option<Duration>,
+    /// Seconds that one call of an isolated law may take before its process is ended [default: 60]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(super) deadline: Option<Duration>,
+    /// Known values to compare with [default: expected.csv beside the law]
+    #[arg(long, value_name = "FILE")]
+    pub(super) expected: Option<PathBuf>,
+    /// Options text that the laws are created with, as [law] options of a scene
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
+    pub(super) options: Option<String>,
+    /// Seed of the random inputs
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(super) seed: u64,
+}
+
+#[derive(Debug, Clone, Args)]
 pub(super) struct ApdlArguments {
     /// The input deck, or the part of it that defines the material
     pub(super) file: PathBuf,
@@ -303,6 +334,17 @@ Outcomes:
 
 What fails leaves a file in NAME.check/, which --replay runs again. Ends with 0 if every check passes, 1 if one does not,
 2 if the file is no law or no check was run, 70 for a fault of the checker.";
+
+const MEASURING: &str = "\
+How it measures:
+  Inputs are ordinary points within the bounds that a law declares; every field it declares differs from point to point.
+  Each law is called in this process and in one of its own, on one thread and on several, in turns; the table shows the
+  least wall time of a call and, in brackets, the median.
+  The bandwidth is that of a triad (a = b + s c) that moves as many bytes on as many threads, in turns with the law. Arrays
+  that fit a large cache are measured against that cache: --points 20000000 goes past it.
+  The accuracy is the largest difference to expected.csv in units of the last place, and its row.
+
+Ends with 0 if every law was measured, 2 if a file is no law, 3 if a law failed; the others are measured then.";
 
 /// Every key of a scene and every column of a history: the page beside the scenes.
 const SCENES: &str = include_str!("../../scenes/README.md");

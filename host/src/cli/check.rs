@@ -1,28 +1,20 @@
 //! `wearlaw check LIB`: whether a law keeps the contract, a line for each check.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
-use tempfile::TempDir;
-
 use super::args::{CheckArguments, ReportFormat};
-use super::build::compiled;
 use super::console::Console;
 use super::interrupt::Interrupt;
-use super::opening::{library_name, temporary};
+use super::opening::found;
 use crate::conformance::{
     Check, CheckOptions, ConformanceError, Event, Expected, Replay, Report, TIMEOUT, Waivers, report, run, select,
 };
 use crate::error::{Error, UsageError};
 use crate::exit_code::ExitCode;
-use crate::law::Source;
-use crate::law::build::BuildRequest;
-use crate::law::file_facts::FileFacts;
-use crate::law::lookup::{self, LawSource, LookupError};
-use crate::scene::Located;
+use indicatif::{ProgressBar, ProgressStyle};
 
 pub(super) fn command(console: &Console, arguments: &CheckArguments) -> Result<ExitCode, Error> {
     let format = if console.json { ReportFormat::Json } else { arguments.format };
@@ -36,10 +28,6 @@ pub(super) fn command(console: &Console, arguments: &CheckArguments) -> Result<E
     let Some(typed) = arguments.law.as_deref() else { return Err(UsageError::NoLaw.into()) };
     let interrupt = Interrupt::watch();
     let found = found(console, &interrupt, typed)?;
-    if let Source::File(path) = &found.source {
-        // What is no law at all ends here, before any of its code has run.
-        FileFacts::read(path)?;
-    }
     let meant = select(&arguments.only)?;
     let is_run = |check: &Check| !arguments.quick || check.facts().quick;
     let mut options = CheckOptions {
@@ -71,52 +59,6 @@ pub(super) fn command(console: &Console, arguments: &CheckArguments) -> Result<E
         ReportFormat::Text => console.result(&report::text(&checked, &options, typed))?,
     }
     Ok(if checked.passes() { ExitCode::Done } else { ExitCode::FallsShort })
-}
-
-/// A law to be checked.
-struct Found {
-    source: Source,
-    /// Which of several.
-    law: Option<String>,
-    expected: Expected,
-    /// What files about it are called.
-    name: String,
-    /// Where it was built; it goes when the value goes.
-    _room: Option<TempDir>,
-}
-
-/// Finds the law that is meant; sources are built first.
-fn found(console: &Console, interrupt: &Interrupt, typed: &str) -> Result<Found, Error> {
-    let (source, law) = match lookup::find(typed, Path::new("")) {
-        Ok(found) => (found.source, found.law),
-        // A file without an ending in this folder is what was meant.
-        Err(LookupError::PathWithoutSlash { kind: "file", .. }) => (LawSource::Library(typed.into()), None),
-        Err(error) => return Err(Located::new(error, None).into()),
-    };
-    let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let beside = |path: &Path| Expected::Beside(path.parent().unwrap_or(Path::new("")).to_path_buf());
-    Ok(match source {
-        LawSource::Embedded(name) => Found {
-            source: Source::Embedded(name.to_owned()),
-            law,
-            expected: Expected::Nowhere,
-            name: name.to_owned(),
-            _room: None,
-        },
-        LawSource::Library(path) => {
-            Found { law, expected: beside(&path), name: stem(&path), source: Source::File(path), _room: None }
-        }
-        LawSource::Source(path) => {
-            let room = temporary()?;
-            let library = room.path().join(library_name(&path));
-            let expected = if path.is_dir() { Expected::Beside(path.clone()) } else { beside(&path) };
-            let whole = path.canonicalize().unwrap_or_else(|_| path.clone());
-            let request =
-                BuildRequest { sources: vec![path], output: Some(library.clone()), ..BuildRequest::default() };
-            interrupt.over(compiled(console, &request))?;
-            Found { source: Source::File(library), law, expected, name: stem(&whole), _room: Some(room) }
-        }
-    })
 }
 
 /// Runs the checks, with a line on a terminal that says which.

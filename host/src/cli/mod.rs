@@ -6,6 +6,7 @@
 
 mod apdl;
 mod args;
+mod bench;
 mod build;
 mod check;
 mod console;
@@ -80,6 +81,7 @@ fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
         Command::New(arguments) => new::command(console, &arguments),
         Command::Inspect(arguments) => inspect::command(console, &arguments),
         Command::Check(arguments) => check::command(console, &arguments),
+        Command::Bench(arguments) => bench::command(console, &arguments),
         Command::Apdl(arguments) => apdl::command(console, &arguments),
     }
 }

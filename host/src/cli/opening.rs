@@ -9,11 +9,12 @@ use super::build::compiled;
 use super::console::Console;
 use super::inspect::opened_embedded;
 use super::interrupt::Interrupt;
+use crate::conformance::Expected;
 use crate::error::{Error, UsageError};
 use crate::law::build::BuildRequest;
 use crate::law::file_facts::FileFacts;
 use crate::law::isolate::{DEADLINE, IsolateOptions, IsolatedLaw, Source};
-use crate::law::lookup::{self, LawSource};
+use crate::law::lookup::{self, LawSource, LookupError};
 use crate::law::{Evaluator, LoadError, LoadOptions, Plugin};
 use crate::scene::{Located, Scene};
 
@@ -51,6 +52,14 @@ pub(super) fn open(
     let (origin, source) = match found.source {
         LawSource::Embedded(name) => (format!("embedded:{name}"), Source::Embedded(name.to_owned())),
         LawSource::Library(path) => (path.display().to_string(), Source::File(path)),
+        LawSource::Source(path) if !path.exists() => {
+            let error = LookupError::NoSource { path };
+            return Err(match shared.law {
+                Some(_) => Located::new(error, None),
+                None => scene.error_at("law.use", error),
+            }
+            .into());
+        }
         LawSource::Source(path) => {
             let place = temporary()?;
             let library = place.path().join(library_name(&path));
@@ -63,7 +72,11 @@ pub(super) fn open(
         }
     };
     let facts = match &source {
-        Source::File(path) => Some(FileFacts::read(path)?),
+        Source::File(path) => Some(FileFacts::read(path).map_err(|error| match shared.law {
+            // What was typed is no place in the scene.
+            Some(_) => Error::from(error),
+            None => scene.error_at("law.use", error).into(),
+        })?),
         Source::Embedded(_) => None,
     };
     let (sha256, options, law) = (scene.law.sha256.clone(), scene.law.options.clone(), found.law);
@@ -90,6 +103,53 @@ fn several(error: LoadError, origin: &str) -> Error {
         LoadError::Ambiguous { known, .. } => UsageError::SeveralLaws { origin: origin.to_owned(), known }.into(),
         other => other.into(),
     }
+}
+
+/// A law to be tried by itself.
+pub(super) struct Found {
+    pub(super) source: Source,
+    /// Which of several.
+    pub(super) law: Option<String>,
+    pub(super) expected: Expected,
+    /// What files about it are called.
+    pub(super) name: String,
+    /// Where it was built; it goes when the value goes.
+    _room: Option<TempDir>,
+}
+
+/// Finds the law that is meant; sources are built first, and what is no law at all is refused before any of it has run.
+pub(super) fn found(console: &Console, interrupt: &Interrupt, typed: &str) -> Result<Found, Error> {
+    let (source, law) = match lookup::find(typed, Path::new("")) {
+        Ok(found) => (found.source, found.law),
+        // A file without an ending in this folder is what was meant.
+        Err(LookupError::PathWithoutSlash { kind: "file", .. }) => (LawSource::Library(typed.into()), None),
+        Err(error) => return Err(Located::new(error, None).into()),
+    };
+    let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let beside = |path: &Path| Expected::Beside(path.parent().unwrap_or(Path::new("")).to_path_buf());
+    Ok(match source {
+        LawSource::Embedded(name) => Found {
+            source: Source::Embedded(name.to_owned()),
+            law,
+            expected: Expected::Nowhere,
+            name: name.to_owned(),
+            _room: None,
+        },
+        LawSource::Library(path) => {
+            FileFacts::read(&path)?;
+            Found { law, expected: beside(&path), name: stem(&path), source: Source::File(path), _room: None }
+        }
+        LawSource::Source(path) => {
+            let room = temporary()?;
+            let library = room.path().join(library_name(&path));
+            let expected = if path.is_dir() { Expected::Beside(path.clone()) } else { beside(&path) };
+            let whole = path.canonicalize().unwrap_or_else(|_| path.clone());
+            let request =
+                BuildRequest { sources: vec![path], output: Some(library.clone()), ..BuildRequest::default() };
+            interrupt.over(compiled(console, &request))?;
+            Found { source: Source::File(library), law, expected, name: stem(&whole), _room: Some(room) }
+        }
+    })
 }
 
 pub(super) fn temporary() -> Result<TempDir, Error> {

@@ -14,11 +14,13 @@ use super::restart;
 use super::summary::Summary;
 use super::table::labelled;
 use super::writing::{Comparison, Listener};
-use crate::error::Error;
+use crate::error::{Error, UsageError};
 use crate::exit_code::ExitCode;
+use crate::law::build::Language;
+use crate::law::lookup;
 use crate::output::{
     FieldFormat, FieldSeries, Figure, Keeper, LawReport, Report, RunPage, StabilityReport, WholeFolder, check_folder,
-    write_history, write_plot, write_run_page,
+    earlier_scene, write_history, write_plot, write_run_page,
 };
 use crate::plan::Plan;
 use crate::record::{End, HistoryRow, Record};
@@ -66,6 +68,7 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     let (scene, law) = prepared(console, &interrupt, &settings.scene, &settings.shared)?;
     let plan = Plan::new(&scene, law.evaluator.descriptor())?;
     check_folder(&settings.out)?;
+    let replaced = replaced(&settings.out, &scene)?;
     let run = Run::prepare(&plan, law.evaluator.as_ref())?;
     run.check_reference()?;
     let identity = restart::identity(&scene, &law, &run)?;
@@ -94,13 +97,17 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
         trouble: None,
     };
     let threads = settings.threads.unwrap_or(0);
-    let record = match &earlier {
+    let mut record = match &earlier {
         Some(earlier) => run.resume(threads, &mut listener, &earlier.checkpoint)?,
         None => run.go(threads, &mut listener),
     };
     drop(earlier);
     let Listener { fields, keeper, trouble, progress, .. } = listener;
     drop(progress);
+    for line in run.oddities(&scene, &plan, &record) {
+        console.note(&format!("warning: {line}"));
+        record.warnings.push(line);
+    }
     if let Some(error) = trouble {
         return Err(error.into());
     }
@@ -134,6 +141,9 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
         write_run_page(&page, &keeper.path().join("report.html"))?;
     }
     keeper.commit()?;
+    if let Some(title) = replaced {
+        console.note(&format!("{} held the results of `{title}`, which these replace", settings.out.display()));
+    }
     let missed = error.as_ref().zip(plan.bar).filter(|(error, bar)| error.value.is_nan() || error.value > *bar);
     let (code, failure) = match record.end {
         End::Failed(error) => {
@@ -282,10 +292,26 @@ pub(super) fn prepared(
     shared: &SceneArguments,
 ) -> Result<(Scene, OpenedLaw), Error> {
     let overrides: Vec<Override> = shared.overrides.iter().map(|text| Override::from(text.as_str())).collect();
+    if let Some(what) = law_instead_of_scene(file) {
+        return Err(UsageError::LawNotScene { path: file.to_owned(), what }.into());
+    }
     let scene = Scene::read(file, &overrides)?;
     let law = opening::open(console, interrupt, &scene, shared)?;
     law.warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
     Ok((scene, law))
+}
+
+/// What a file is that was typed where a scene belongs, if its name tells a law.
+fn law_instead_of_scene(file: &Path) -> Option<&'static str> {
+    let is_library = lookup::is_library(file);
+    let is_source = Language::of(file).is_some() || file.file_name().is_some_and(|name| name == "Cargo.toml");
+    if is_library { Some("a library") } else { is_source.then_some("source code") }
+}
+
+/// The title of another scene whose results these replace.
+fn replaced(out: &Path, scene: &Scene) -> Result<Option<String>, Error> {
+    let earlier = earlier_scene(out)?.and_then(|earlier| earlier["title"].as_str().map(str::to_owned));
+    Ok(earlier.filter(|title| Some(title) != scene.title.as_ref()))
 }
 
 /// `NAME.out` in the current folder for a scene `NAME.toml` in any.

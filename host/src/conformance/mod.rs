@@ -56,40 +56,13 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::law::Source;
+pub use crate::sampling::known::Expected;
 
 /// First argument that makes the program a worker of the checker.
 pub const WORKER_COMMAND: &str = "__check_worker";
 
 /// Seconds that a check may take unless the user says otherwise: several times what the longest takes.
 pub const TIMEOUT: Duration = Duration::from_secs(20);
-
-/// Where the table of known values of a law is.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Expected {
-    /// There is none, but for the law's own extension.
-    Nowhere,
-    /// In this file.
-    File(PathBuf),
-    /// In this folder, if there: `expected.csv`, or `expected-NAME.csv` where a library holds several laws.
-    Beside(PathBuf),
-}
-
-impl Expected {
-    /// The file for one of `laws` laws, if there is one.
-    pub fn file(&self, law: Option<&str>, laws: usize) -> Option<PathBuf> {
-        match self {
-            Self::Nowhere => None,
-            Self::File(path) => Some(path.clone()),
-            Self::Beside(folder) => {
-                let name = match law {
-                    Some(law) if laws > 1 => format!("expected-{law}.csv"),
-                    _ => "expected.csv".to_owned(),
-                };
-                Some(folder.join(name)).filter(|path| path.is_file())
-            }
-        }
-    }
-}
 
 /// Which law is checked, and how.
 #[derive(Clone, Debug)]

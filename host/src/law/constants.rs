@@ -17,6 +17,16 @@ pub enum GivenConstants<'a> {
 /// Why constants were refused; positions count from 1.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ConstantsError {
+    /// Several names that are not those of constants.
+    #[error("law `{law}` has no constants {}; it has {}", list(names), list(known))]
+    SeveralUnknown {
+        /// The law.
+        law: String,
+        /// The names given.
+        names: Vec<String>,
+        /// All names.
+        known: Vec<String>,
+    },
     /// No constant of that name.
     #[error("law `{law}` has no constant `{name}`{}; it has {}", nearest.as_ref().map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default(), list(known))]
     Unknown {
@@ -82,7 +92,7 @@ impl ConstantsError {
     pub fn constant(&self) -> Option<&str> {
         match self {
             Self::Unknown { name, .. } | Self::Twice { name, .. } | Self::OutOfBounds { name, .. } => Some(name),
-            Self::TooMany { .. } | Self::Required { .. } => None,
+            Self::SeveralUnknown { .. } | Self::TooMany { .. } | Self::Required { .. } => None,
         }
     }
 }
@@ -146,6 +156,13 @@ impl LawDescriptor {
 
     fn by_name(&self, pairs: &[(String, f64)]) -> Result<Vec<Option<f64>>, ConstantsError> {
         let mut values = vec![None; self.constants.len()];
+        let is_known = |name: &str| self.constants.iter().any(|constant| constant.name == name);
+        let unknown = pairs.iter().map(|(name, _)| name.clone()).filter(|name| !is_known(name));
+        let names: Vec<String> = unknown.collect();
+        if names.len() > 1 {
+            // Those of another law: to name one of them would hide that all are.
+            return Err(ConstantsError::SeveralUnknown { law: self.name.clone(), names, known: self.constant_names() });
+        }
         for (name, value) in pairs {
             let Some(index) = self.constants.iter().position(|constant| constant.name == *name) else {
                 return Err(ConstantsError::Unknown {

@@ -53,6 +53,12 @@ pub enum LookupError {
         /// `file` or `folder`.
         kind: &'static str,
     },
+    /// A path to sources that are not there.
+    #[error("no file `{}`, expected the source of a wear law", path.display())]
+    NoSource {
+        /// The path.
+        path: PathBuf,
+    },
     /// `embedded:` with a law that is not.
     #[error("found no law `{name}` in this program, expected {}", names(known))]
     NotEmbedded {
@@ -136,7 +142,8 @@ fn is_path(name: &str) -> bool {
         || [".", ".."].contains(&name)
 }
 
-fn is_library(path: &Path) -> bool {
+/// Whether a file is a library by its name.
+pub fn is_library(path: &Path) -> bool {
     path.extension().is_some_and(|end| ["so", "dylib", "dll"].iter().any(|known| end == *known))
 }
 

@@ -27,6 +27,12 @@ pub enum OutputError {
         /// One of the entries that no run writes.
         found: String,
     },
+    /// The folder for results holds a report that no run wrote.
+    #[error("{} is not the report of a run, expected a new or empty folder or an earlier result", report.display())]
+    ForeignReport {
+        /// The file.
+        report: PathBuf,
+    },
     /// The folder for results is a file.
     #[error("{} is a file, expected a folder for results or a new name", path.display())]
     NotAFolder {

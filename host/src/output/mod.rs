@@ -24,4 +24,4 @@ pub use html::{Page, RunPage, write_run_page};
 pub use plot::{Figure, write_plot};
 pub use report::{LawReport, Report, StabilityReport};
 pub use study::{check_study_folder, write_study};
-pub use whole::{WholeFolder, check_folder, sweep_folder, write_file, write_file_synced};
+pub use whole::{WholeFolder, check_folder, earlier_scene, sweep_folder, write_file, write_file_synced};

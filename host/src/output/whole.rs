@@ -5,6 +5,7 @@
 //! to take large fields would cost more than the run.
 
 use super::OutputError;
+use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -108,6 +109,26 @@ pub fn sweep_folder(path: &Path) -> Result<PathBuf, OutputError> {
     }
     fs::create_dir_all(&cases).map_err(OutputError::io("create", &cases))?;
     Ok(cases)
+}
+
+/// The scene of the earlier result in the folder `path`, as its report has it; `None` where there is no report.
+///
+/// # Errors
+/// `ForeignReport` when the folder holds a `report.json` that no run wrote, `Io` when it cannot be read.
+pub fn earlier_scene(path: &Path) -> Result<Option<Value>, OutputError> {
+    let report = path.join(REPORT);
+    let text = match fs::read_to_string(&report) {
+        Ok(text) => text,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(error) if error.kind() == io::ErrorKind::InvalidData => return Err(OutputError::ForeignReport { report }),
+        Err(error) => return Err(OutputError::io("read", &report)(error)),
+    };
+    let document: Option<Value> = serde_json::from_str(&text).ok();
+    let scene = document.filter(|document| ["law", "result"].iter().all(|key| document[key].is_object()));
+    match scene.map(|mut document| document["scene"].take()) {
+        Some(scene) if scene.is_object() => Ok(Some(scene)),
+        _ => Err(OutputError::ForeignReport { report }),
+    }
 }
 
 /// A folder of results that is written aside and appears whole, or not at all when it is dropped.

@@ -16,6 +16,7 @@ mod inputs;
 mod kinematics;
 mod ladder;
 mod moment_batch;
+mod odd;
 mod prescribed;
 mod progress;
 mod reference;

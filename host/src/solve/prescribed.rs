@@ -84,6 +84,11 @@ impl<'p> Prescribed<'p> {
         Ok(run)
     }
 
+    /// Its history, where it has one.
+    pub(super) fn history(&self) -> Option<&History> {
+        self.history.as_ref()
+    }
+
     /// Number of points.
     pub(super) fn points(&self) -> usize {
         self.points

@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::coupled::Coupled;
+use super::odd::oddities;
 use super::prescribed::Prescribed;
 use super::{ErrorNorm, Estimate, Expected, Ladder, Ordinary, SolveError};
 use crate::law::Evaluator;
 use crate::plan::Plan;
 use crate::record::{Checkpoint, Geometry, MemoryLine, Observer, Record};
+use crate::scene::Scene;
 
 /// A plan with its files read, ready to go.
 pub struct Run<'p> {
@@ -30,6 +32,16 @@ impl<'p> Run<'p> {
             Some(solved) => Kind::Coupled(Box::new(Coupled::prepare(plan, solved, evaluator)?)),
         };
         Ok(Run { kind })
+    }
+
+    /// What about a run that went to its end its user should look at, a line each: no wear at all, a depth beyond the body,
+    /// rows of the history that no load step reaches.
+    pub fn oddities<E>(&self, scene: &Scene, plan: &Plan, record: &Record<E>) -> Vec<String> {
+        let history = match &self.kind {
+            Kind::Prescribed(run) => run.history(),
+            Kind::Coupled(_) => None,
+        };
+        oddities(scene, plan, history, record)
     }
 
     /// Number of points.

@@ -12,7 +12,7 @@ use super::super::message::{Judged, Task, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::super::slate::Slate;
 use super::super::trial::PATIENT;
-use super::expected::Table;
+use super::expected::table_of;
 use crate::law::{Claim, LawDescriptor, Source};
 
 /// The place of one body.
@@ -71,7 +71,7 @@ impl Bench {
     /// Constants that the author computed with, from the table of known values.
     pub(super) fn known_constants(&self, law: &Law<'_>) -> Vec<Vec<f64>> {
         // A table that cannot be read is told by its own check.
-        Table::of(self, law).ok().flatten().map_or_else(Vec::new, |table| table.constants(&law.about))
+        table_of(self, law).ok().flatten().map_or_else(Vec::new, |table| table.constants(&law.about))
     }
 
     /// A call of `count` good points.

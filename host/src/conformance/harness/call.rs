@@ -9,6 +9,7 @@ use super::arrays::{Arrays, Room};
 use super::columns::view_of;
 pub(crate) use super::layout::{Asked, Given, Layout, Spread};
 use super::points::Case;
+use super::sample::Answering;
 use super::subject::Instance;
 use crate::law::batch::column_of;
 use crate::law::{Field, LawDescriptor};
@@ -217,6 +218,17 @@ impl Call {
             return Vec::new();
         }
         numbers(column.ptr.cast_mut(), variables * self.case.count)
+    }
+}
+
+impl Answering for Instance<'_> {
+    fn wears(&self, case: &Case) -> Option<bool> {
+        let law = &self.law.about;
+        let layout = Layout { asked: Asked::values(law), ..Layout::plain(law) };
+        let answers = Call::new(law, case, &layout).answers(self);
+        let finite =
+            answers.increment.iter().chain(&answers.direction).chain(&answers.state).all(|value| value.is_finite());
+        (answers.is_good() && finite).then(|| answers.increment.iter().any(|increment| *increment != 0.0))
     }
 }
 

@@ -1,21 +1,14 @@
 //! Whether two answers are the same, and how far they are apart if not.
 
+pub(crate) use super::answer::AtPoint;
 use super::call::{Answers, good};
 use super::points::number_text;
+use super::ulps::ulps;
 
 /// Units in the last place that answers of a law may differ by that does not claim to be deterministic.
 pub(crate) const ULPS: u64 = 4;
 /// Components of unit vectors and numbers that cancel: this far in units of one.
 const COMPONENT: f64 = 4.0 * f64::EPSILON;
-
-/// The numbers of one point.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct AtPoint {
-    pub(crate) increment: f64,
-    pub(crate) direction: Vec<f64>,
-    pub(crate) state: Vec<f64>,
-    pub(crate) d_pressure: Option<f64>,
-}
 
 impl Answers {
     /// The numbers of one point.
@@ -71,11 +64,6 @@ impl Difference {
 }
 
 impl AtPoint {
-    /// An increment alone.
-    pub(crate) fn of_increment(increment: f64) -> Self {
-        Self { increment, direction: Vec::new(), state: Vec::new(), d_pressure: None }
-    }
-
     /// The largest difference to another point's numbers, of those that both have; none if they are the same to the bit.
     pub(crate) fn difference(&self, other: &AtPoint) -> Option<Difference> {
         let mut found: Option<Difference> = None;
@@ -118,15 +106,6 @@ impl AtPoint {
     }
 }
 
-/// Distance of two numbers in units in the last place; the largest number if one is NaN.
-pub(crate) fn ulps(one: f64, other: f64) -> u64 {
-    let place = |number: f64| {
-        let size = (number.to_bits() & !(1 << 63)).cast_signed();
-        if number.is_sign_negative() { -size } else { size }
-    };
-    if one.is_nan() || other.is_nan() { u64::MAX } else { place(one).abs_diff(place(other)) }
-}
-
 /// True if two numbers agree to `tolerance` of the larger one.
 pub(crate) fn agree(one: f64, other: f64, tolerance: f64) -> bool {
     one == other || (one - other).abs() <= tolerance * one.abs().max(other.abs())
@@ -137,11 +116,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_in_the_last_place_count_across_zero() {
-        assert_eq!(ulps(1.0, 1.0_f64.next_up()), 1);
-        assert_eq!(ulps(0.0, -0.0), 0);
-        assert_eq!(ulps(-5e-324, 5e-324), 2);
-        assert_eq!(ulps(1.0, f64::NAN), u64::MAX);
+    fn numbers_agree_to_a_tolerance_and_nothing_agrees_with_nan() {
         assert!(agree(1.0, 1.0 + 1e-12, 1e-11) && !agree(1.0, 1.0 + 1e-10, 1e-11) && !agree(1.0, f64::NAN, 1.0));
     }
 

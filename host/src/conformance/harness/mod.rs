@@ -9,8 +9,7 @@ pub(super) mod closeness;
 mod columns;
 pub(super) mod fault_note;
 mod layout;
-pub(super) mod points;
-pub(super) mod random;
-pub(super) mod sample;
 pub(super) mod subject;
 pub(super) mod surroundings;
+
+pub(super) use crate::sampling::{answer, known, points, random, sample, ulps};

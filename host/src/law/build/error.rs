@@ -25,10 +25,15 @@ pub enum BuildError {
         path: PathBuf,
     },
     /// A folder that is no crate.
-    #[error("folder `{path}` holds no Cargo.toml, expected a Rust crate or source files by name")]
+    #[error(
+        "folder `{path}` holds no Cargo.toml, expected a Rust crate or source files by name{}",
+        if holds.is_empty() { String::new() } else { format!(", such as `{}`", holds.join("`, `")) }
+    )]
     FolderWithoutCrate {
         /// The folder.
         path: PathBuf,
+        /// Sources and libraries in it, and crates below it; a few.
+        holds: Vec<String>,
     },
     /// One Rust file instead of its crate.
     #[error("`{path}` is a single Rust file, expected its crate: the folder that holds Cargo.toml")]

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use super::super::lookup::is_library;
 use super::BuildError;
 
 /// A language that laws are built from.
@@ -55,6 +56,21 @@ impl fmt::Display for Language {
     }
 }
 
+/// Most laws of a folder that an error lists.
+const LISTED: usize = 5;
+
+/// What in a folder may be a law: sources and libraries in it, crates below it; a few, sorted.
+fn laws_in(folder: &Path) -> Vec<String> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut found: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    found.retain(|path| {
+        let native = Language::of(path).is_some_and(|language| language != Language::Rust);
+        native || is_library(path) || path.join("Cargo.toml").is_file()
+    });
+    found.sort();
+    found.iter().take(LISTED).map(|path| path.display().to_string()).collect()
+}
+
 /// Sources that belong to one build.
 pub(super) enum Sources {
     /// The manifest of a Rust crate.
@@ -75,7 +91,7 @@ pub(super) fn sort(sources: &[PathBuf]) -> Result<Sources, BuildError> {
         let manifest = if metadata.is_dir() {
             let manifest = path.join("Cargo.toml");
             if !manifest.is_file() {
-                return Err(BuildError::FolderWithoutCrate { path: path.clone() });
+                return Err(BuildError::FolderWithoutCrate { path: path.clone(), holds: laws_in(path) });
             }
             Some(manifest)
         } else if path.file_name().is_some_and(|name| name == "Cargo.toml") {

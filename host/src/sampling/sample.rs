@@ -1,10 +1,14 @@
 //! Inputs to try a law on: ordinary ones, such as a contact has, and wide ones, as far as the bounds reach.
 
-use super::call::{Asked, Call, Layout};
 use super::points::{Case, Point};
 use super::random::Random;
-use super::subject::Instance;
 use crate::law::{CallNumbers, Field, LawDescriptor, Quantity};
+
+/// What can say whether a law answers a call of one point.
+pub(crate) trait Answering {
+    /// Whether the point of the call wears; none if the law refuses it or gives no finite value.
+    fn wears(&self, case: &Case) -> Option<bool>;
+}
 
 /// Picks constants and points for one law.
 pub(crate) struct Sampler<'l> {
@@ -143,7 +147,7 @@ impl<'l> Sampler<'l> {
     /// A call of `count` points that the law answers with good, finite values; none if it refuses all that is tried.
     ///
     /// Points that wear are preferred, since the others would hide a fault. The points are sorted by pressure.
-    pub(crate) fn good(&mut self, instance: &Instance<'_>, count: usize) -> Option<Case> {
+    pub(crate) fn good(&mut self, law: &impl Answering, count: usize) -> Option<Case> {
         let mut best: Option<(usize, Case)> = None;
         for _ in 0..TRIES {
             let (numbers, constants) = (self.numbers(), self.constants());
@@ -155,7 +159,7 @@ impl<'l> Sampler<'l> {
                 }
                 let point = self.point(numbers.dt);
                 let case = Case::new(numbers, constants.clone(), vec![point]);
-                if let Some(wears) = wear(self.law, &case, instance) {
+                if let Some(wears) = law.wears(&case) {
                     points.extend(case.points.into_iter().map(|point| (wears, point)));
                 }
                 if points.iter().filter(|(wears, _)| *wears).count() >= count {
@@ -176,15 +180,6 @@ impl<'l> Sampler<'l> {
         }
         best.map(|(_, case)| case)
     }
-}
-
-/// Whether a point wears; none if the law refuses it or gives no finite value.
-fn wear(law: &LawDescriptor, case: &Case, instance: &Instance<'_>) -> Option<bool> {
-    let layout = Layout { asked: Asked::values(law), ..Layout::plain(law) };
-    let answers = Call::new(law, case, &layout).answers(instance);
-    let finite =
-        answers.increment.iter().chain(&answers.direction).chain(&answers.state).all(|value| value.is_finite());
-    (answers.is_good() && finite).then(|| answers.increment.iter().any(|increment| *increment != 0.0))
 }
 
 /// The allowed value nearest to zero.

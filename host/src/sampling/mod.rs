@@ -1,0 +1,11 @@
+//! What a law is tried on.
+//!
+//! Here are the points of a call as plain numbers, random inputs within the bounds that a law declares, the table of
+//! values that its author computed, and what a law answers at a point. How a call is laid out and made is not here.
+
+pub(crate) mod answer;
+pub(crate) mod known;
+pub(crate) mod points;
+pub(crate) mod random;
+pub(crate) mod sample;
+pub(crate) mod ulps;

@@ -1,0 +1,52 @@
+//! What is published builds by itself: a crate's package holds every file that its build reads.
+
+#[path = "support/sources.rs"]
+mod sources;
+
+use std::path::Path;
+use std::process::Command;
+
+/// The files of a crate's package.
+fn packaged(name: &str) -> Vec<String> {
+    let words = ["package", "--list", "--offline", "--allow-dirty", "-p", name];
+    let output = Command::new(env!("CARGO")).args(words).current_dir(sources::root()).output().expect("cargo starts");
+    assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn the_program_takes_along_what_it_carries() {
+    let files = packaged("wearlaw");
+    let mut wanted = vec!["carried/workspace.toml".to_owned(), "carried/plugin-api/manifest.toml".to_owned()];
+    for folder in ["include", "plugin-api/src"] {
+        wanted.extend(sources::below(folder).iter().map(|path| format!("carried/{}", path.display())));
+    }
+    assert!(wanted.len() > 20, "the sources are where this test looks: {wanted:?}");
+    for file in wanted {
+        assert!(files.contains(&file), "the package has no {file}");
+    }
+    for needed in ["build.rs", "README.md", "scenes/README.md", "src/templates/c/law.c"] {
+        assert!(files.iter().any(|file| file == needed), "the package has no {needed}");
+    }
+}
+
+#[test]
+fn what_is_carried_is_what_lies_beside_the_crate() {
+    for (link, file) in [
+        ("include/wearlaw.h", "include/wearlaw.h"),
+        ("plugin-api/src/lib.rs", "plugin-api/src/lib.rs"),
+        ("plugin-api/manifest.toml", "plugin-api/Cargo.toml"),
+        ("workspace.toml", "Cargo.toml"),
+    ] {
+        let carried = sources::text(&Path::new("host/carried").join(link)).expect("text");
+        assert_eq!(Some(carried), sources::text(Path::new(file)), "{link}");
+    }
+}
+
+#[test]
+fn the_crates_it_needs_are_packaged_too() {
+    for (name, file) in [("wearlaw-plugin-api", "src/abi/views.rs"), ("wearlaw-archard", "src/lib.rs")] {
+        let files = packaged(name);
+        assert!(files.iter().any(|found| found == file), "{name}: {files:?}");
+    }
+}
