@@ -13,6 +13,7 @@ use super::restart;
 use super::summary::Summary;
 use super::table::labelled;
 use super::writing::{Comparison, Listener};
+use crate::contact::Instructions;
 use crate::error::Error;
 use crate::exit_code::ExitCode;
 use crate::output::{
@@ -65,7 +66,7 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     let run = Run::prepare(&plan, law.evaluator.as_ref())?;
     run.check_reference()?;
     let identity = restart::identity(&scene, &law, &run)?;
-    let earlier = if settings.resume { restart::earlier(&settings.out, &identity)? } else { None };
+    let earlier = if settings.resume { restart::earlier(console, &settings.out, &identity)? } else { None };
     if settings.resume && earlier.is_none() {
         console.note(&format!("no checkpoint in {}: the run begins at its start", settings.out.display()));
     }
@@ -210,6 +211,7 @@ fn report(
             isolated: settings.shared.isolate,
             build_time_s: law.build_seconds,
         },
+        instructions: Instructions::asked()?.name().to_owned(),
         computed: plan.computed.clone(),
         skipped: json("the plan", serde_json::to_value(&plan.skipped))?,
         memory: record.memory.clone(),
@@ -275,6 +277,7 @@ pub(super) fn prepared(
     file: &std::path::Path,
     shared: &SceneArguments,
 ) -> Result<(Scene, OpenedLaw), Error> {
+    Instructions::asked()?;
     let overrides: Vec<Override> = shared.overrides.iter().map(|text| Override::from(text.as_str())).collect();
     let scene = Scene::read(file, &overrides)?;
     let law = opening::open(console, interrupt, &scene, shared)?;

@@ -307,7 +307,9 @@ impl<'p> Prescribed<'p> {
         let (exact, name) = match wanted {
             ReferencePlan::File(path) => (reference::from_file(path, self.ids())?, path.display().to_string()),
             ReferencePlan::Refined => {
-                (self.refined(observer)?, "the same scene to a tolerance 100 times tighter".to_owned())
+                let unscaled = self.plan.material.scaling.kind != ScalingKind::None;
+                let how = if unscaled { ", without scaling" } else { "" };
+                (self.refined(observer)?, format!("the same scene to a tolerance 100 times tighter{how}"))
             }
             ReferencePlan::Exact(named) => {
                 let until = record.history.last().map_or(0.0, |row| row.time);
