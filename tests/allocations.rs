@@ -2,7 +2,7 @@
 #![allow(unsafe_code)] // reason: an allocator that counts can be written in no other way
 
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicI64, AtomicU64, Ordering};
 
 #[path = "support/solved.rs"]
 mod solved;
@@ -16,11 +16,20 @@ struct Counting;
 
 static CALLS: AtomicU64 = AtomicU64::new(0);
 static BYTES: AtomicU64 = AtomicU64::new(0);
+/// Bytes that are held, and the most of them since the last look.
+static HELD: AtomicI64 = AtomicI64::new(0);
+static MOST: AtomicI64 = AtomicI64::new(0);
 
 impl Counting {
     fn count(bytes: usize) {
         CALLS.fetch_add(1, Ordering::SeqCst);
         BYTES.fetch_add(bytes as u64, Ordering::SeqCst);
+        Counting::hold(bytes as i64);
+    }
+
+    fn hold(bytes: i64) {
+        let held = HELD.fetch_add(bytes, Ordering::SeqCst) + bytes;
+        MOST.fetch_max(held, Ordering::SeqCst);
     }
 }
 
@@ -33,12 +42,14 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        Counting::hold(-(layout.size() as i64));
         // SAFETY: the block came from the system's allocator, with this layout.
         unsafe { System.dealloc(block, layout) }
     }
 
     unsafe fn realloc(&self, block: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         Counting::count(size);
+        Counting::hold(-(layout.size() as i64));
         // SAFETY: as for `dealloc`; the caller keeps the contract of `realloc`.
         unsafe { System.realloc(block, layout, size) }
     }
@@ -66,6 +77,31 @@ fn allocations(scene: &str) -> (u64, u64) {
     let after = (CALLS.load(Ordering::SeqCst), BYTES.load(Ordering::SeqCst));
     assert!(matches!(record.end, End::Done), "{:?}\n{scene}", record.end);
     (after.0 - before.0, after.1 - before.1)
+}
+
+/// The most bytes that a run held at a time, its preparation included, and what it lists.
+fn held(scene: &str) -> (f64, f64) {
+    let (case, law) = (Case::text(scene), archard());
+    let plan = case.plan(&law);
+    let before = HELD.load(Ordering::SeqCst);
+    MOST.store(before, Ordering::SeqCst);
+    let run = Run::prepare(&plan, &law).expect("no files");
+    let listed: u64 = run.memory().iter().map(|line| line.bytes).sum();
+    let record = run.go(1, &mut Nobody);
+    let most = MOST.load(Ordering::SeqCst) - before;
+    assert!(matches!(record.end, End::Done), "{:?}\n{scene}", record.end);
+    (most as f64, listed as f64)
+}
+
+/// A wave pressed flat on 128 by 128 cells: every cell is in contact.
+fn wave(law: &str, integrator: &str) -> String {
+    format!(
+        "[law]\nuse = \"archard\"\nconstants = {{ K = 1e-4, H = 1e10 }}\n{law}\n\
+         [contact]\nmodel = \"halfspace\"\nmodulus = 1.1e11\nboundary = \"periodic\"\n\
+         [grid]\nsize = [1e-3, 1e-3]\ncells = [128, 128]\n\
+         [surface]\nshape = \"wavy\"\namplitude = 1e-8\nwaves = [1, 1]\n\
+         [[step]]\nduration = 0.1\nload = 20.0\nvelocity = 1.0\n[integrator]\n{integrator}\n"
+    )
 }
 
 /// A scene of four parts, to which keys can be added: the law's, the contact's, the step's, and further sections.
@@ -127,5 +163,16 @@ fn keys_of_no_effect_allocate_nothing() {
         let plain = allocations(&scene("", "", "", ""));
         let stick = allocations(&scene("", "", "stick = 1e-5", ""));
         assert!(!alike(stick, plain), "{stick:?}, without {plain:?}");
+    }
+    // What a plan lists is what a run holds, at most: all of it where all cells touch.
+    let large = |scene: String| scene.replace("cells = [32, 32]", "cells = [128, 128]");
+    for (name, scene, least) in [
+        ("a wave", wave("", "substeps = 3"), 0.5),
+        ("a wave to a tolerance", wave("", "tolerance = 1e-3"), 0.5),
+        ("a ball", large(ball("", "", "", "")), 0.15),
+        ("a ball under nodal tractions", large(ball("basis = \"nodal-stress\"", "", "", "")), 0.15),
+    ] {
+        let (held, listed) = held(&scene);
+        assert!(held < 1.05 * listed && held > least * listed, "{name}: {held} bytes, the plan lists {listed}");
     }
 }

@@ -20,6 +20,8 @@ mod random;
 mod solved;
 #[path = "random_scenes/units.rs"]
 mod units;
+#[path = "random_scenes/warm.rs"]
+mod warm;
 
 use std::collections::BTreeMap;
 
@@ -31,7 +33,7 @@ use wearlaw::record::End;
 use wearlaw::solve::Run;
 
 /// The laws, made once.
-struct Laws([LawInstance; 5]);
+struct Laws([LawInstance; 6]);
 
 impl Laws {
     fn new() -> Self {
@@ -41,6 +43,7 @@ impl Laws {
             memory::<laws::Work>(None),
             memory::<ploughing::Ploughing>(None),
             memory::<laws::ImpatientRate>(None),
+            memory::<warm::Warm>(None),
         ])
     }
 
@@ -51,6 +54,7 @@ impl Laws {
             Law::Work => 2,
             Law::Ploughing => 3,
             Law::Impatient => 4,
+            Law::Warm => 5,
         }]
     }
 }

@@ -1,6 +1,8 @@
 //! Runs that are killed, interrupted or extended, and go on from their checkpoint: the results are those of a run that was
 //! never stopped, to the bit.
 
+#[path = "support/npz.rs"]
+mod npz;
 #[path = "support/program.rs"]
 mod program;
 
@@ -318,4 +320,41 @@ fn a_failed_run_leaves_a_checkpoint_and_fails_again_where_it_failed() {
     let rows = |all: &BTreeMap<String, Vec<u8>>| all["history.csv"].iter().filter(|byte| **byte == b'\n').count();
     assert!(rows(&once) > 2);
     assert!(rows(&results(&here.path().join("out"))) > rows(&once), "it went on from where it had been");
+}
+
+/// Beyond 400 000 numbers a prescribed run keeps no second copy of its arrays to undo a failed step with.
+#[test]
+fn a_large_prescribed_run_that_fails_leaves_the_last_checkpoint_that_it_wrote() {
+    let here = folder();
+    let step = |velocity: f64| format!("[[step]]\nduration = 1.0\nvelocity = {velocity:?}\n");
+    // With n = -1 the law has no answer at rest.
+    let scene = |history: &str, steps: &[f64]| {
+        format!(
+            "[law]\nuse = \"archard\"\nconstants = {{ K = 1e-4, H = 1e10, m = 1.0, n = -1.0 }}\n\
+             [contact]\nmodel = \"prescribed\"\nhistory = \"{history}\"\n{}[output]\nfields = []\ncheckpoint = 1e-9\n",
+            steps.iter().map(|velocity| step(*velocity)).collect::<String>()
+        )
+    };
+    for (name, points) in [("large", 410_000), ("small", 1000)] {
+        let history = format!("{name}.npz");
+        npz::Npz::create(&here.path().join(&history))
+            .array("time", &[1], std::iter::once(0.0))
+            .array("pressure", &[points], (0..points).map(|i| 1e6 + (i % 977) as f64))
+            .finish();
+        write(here.path(), "fails.toml", &scene(&history, &[0.5, 1.0, 2.0, 0.0, 1.0]));
+        write(here.path(), "done.toml", &scene(&history, &[0.5, 1.0, 2.0]));
+        let first = fails(here.path(), &["run", "fails.toml", "--out", "out"], 3, "law");
+        done(here.path(), &["run", "done.toml", "--out", "done", "-q"]);
+        let [failed, three] = ["out", "done"].map(|out| {
+            let stored =
+                wearlaw::output::read_checkpoint(&here.path().join(out).join("checkpoint")).expect("it is whole");
+            stored.checkpoint
+        });
+        assert_eq!((failed.time, three.time), (3.0, 3.0), "{name}");
+        assert_eq!(failed.history, three.history);
+        assert!(failed.arrays["wear"] == three.arrays["wear"] && failed.arrays["wear"].len() == points, "{name}");
+        let again = fails(here.path(), &["run", "fails.toml", "--out", "out", "--resume"], 3, "law");
+        assert_eq!(first, again);
+        ["out", "done"].map(|out| fs::remove_dir_all(here.path().join(out)).unwrap());
+    }
 }

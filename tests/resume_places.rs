@@ -130,6 +130,53 @@ fn stretches_to_a_tolerance() {
     }
 }
 
+/// Keeps all checkpoints and ends the run behind one step.
+struct Until {
+    step: u64,
+    all: All,
+}
+
+impl Observer for Until {
+    fn observe(&mut self, event: Event<'_>) -> Wish {
+        let ends = matches!(event, Event::Step { steps, .. } if steps == self.step);
+        self.all.observe(event);
+        if ends { Wish::Stop } else { Wish::GoOn }
+    }
+
+    fn wants_checkpoint(&mut self, _last: bool) -> bool {
+        true
+    }
+}
+
+/// With fields of single steps a stretch is gone through again when its steps are known: an interruption ends it there.
+#[test]
+fn an_interruption_within_a_stretch_ends_the_run_behind_that_step() {
+    let fields = "[integrator]\ntolerance = 1e-3\n[output]\nfields = [\"wear\"]\nevery = 3\n";
+    for scaling in ["", "[scaling]\nkind = \"cycle\"\nsafety = 0.05\n"] {
+        let cycles = CYCLES.replace("count = 12", "count = 4");
+        let text = format!("{ARCHARD}{BODIES}{GRID}{cycles}{scaling}{fields}");
+        let scene = Scene::parse(&text, "scene.toml", &[]).expect("a scene");
+        let law = archard();
+        let plan = Plan::new(&scene, law.descriptor()).expect("a plan");
+        let run = Run::prepare(&plan, &law).expect("a surface");
+        let whole = run.go(1, &mut Nobody);
+        assert!(matches!(whole.end, End::Done), "{:?}", whole.end);
+        let mut inside = 0;
+        for step in (1..whole.cost.steps).step_by(whole.cost.steps.div_ceil(9) as usize) {
+            let mut until = Until { step, all: All::default() };
+            let cut = run.go(1, &mut until);
+            assert!(matches!(cut.end, End::Interrupted), "{:?}", cut.end);
+            assert_eq!(cut.history.rows, whole.history.rows[..=step as usize], "the run ended behind step {step}");
+            let last = until.all.0.last().expect("a checkpoint where it ended");
+            assert_eq!(last.time, cut.history.rows[step as usize].time);
+            inside += usize::from(!last.arrays["again.until"].is_empty());
+            let resumed = run.resume(1, &mut Nobody, last).expect("a checkpoint of this run");
+            assert!(bits(&resumed) == bits(&whole), "from step {step}:\n{text}");
+        }
+        assert!(inside > 4, "{inside} of the steps lie within a stretch");
+    }
+}
+
 #[test]
 fn scaled_substeps_and_cycles() {
     let substeps = "[integrator]\nsubsteps = 20\n";

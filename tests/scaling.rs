@@ -116,6 +116,38 @@ fn scaled_cycles_end_where_unscaled_ones_do_and_count_what_they_stand_for() {
     }
 }
 
+/// The same scene refined, `kind = "self"`, has the error of the scaling in it, or says that it has not.
+#[test]
+fn a_scaled_run_is_held_to_an_unscaled_one_where_that_can_be_paid_for() {
+    // A hundred time units of sliding, in so many cycles.
+    let scene = |count: u64, integrator: &str, more: &str| {
+        let duration = 100.0 / count as f64;
+        format!(
+            "{CYLINDER}[[cycle]]\ncount = {count}\n[[cycle.step]]\nduration = {duration:e}\nload = 1000.0\nvelocity = 1.0\n\
+             [integrator]\n{integrator}\n{more}"
+        )
+    };
+    let scaled = "[scaling]\nkind = \"cycle\"\nsafety = 0.3\n[reference]\nkind = \"self\"\n";
+    let run = |count: u64, integrator: &str| {
+        let solved = Case::text(&scene(count, integrator, scaled)).solve(&archard());
+        (solved.error.expect("it names a reference"), solved.record)
+    };
+    let plain = solve(&scene(1000, "substeps = 32", ""));
+    for (integrator, said) in [("substeps = 2", "in 16 times as many substeps"), ("tolerance = 1e-2", "tighter")] {
+        let (error, record) = run(1000, integrator);
+        assert!(record.cost.steps < 1000, "{} steps", record.cost.steps);
+        assert!(error.reference.contains("without scaling") && error.reference.contains(said), "{}", error.reference);
+        if integrator == "substeps = 2" {
+            let found = distance(&record.wear, &plain.wear);
+            assert!(found > 1e-4, "the scaling costs {found:e}");
+            near(error.value, found, 0.05);
+        }
+    }
+    let (error, record) = run(100_000_000, "substeps = 2");
+    assert!(record.cost.steps < 10_000, "{} steps", record.cost.steps);
+    assert!(error.reference.contains("the error of the scaling is not in it"), "{}", error.reference);
+}
+
 #[test]
 fn no_factor_pushes_a_point_through_the_gap() {
     // A held approach: at most the overlap can go.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::apdl::{DeckError, Diagnostic, LowerError};
 use crate::bench::BenchError;
 use crate::conformance::ConformanceError;
+use crate::contact::InstructionsError;
 use crate::contact::prescribed::HistoryError;
 use crate::exit_code::ExitCode;
 use crate::law::build::BuildError;
@@ -77,6 +78,9 @@ pub enum Error {
     /// A run cannot go on from a checkpoint of another run.
     #[error(transparent)]
     Resume(#[from] Difference),
+    /// The environment asks for instructions that the processor does not have.
+    #[error(transparent)]
+    Instructions(#[from] InstructionsError),
     /// A law could not be checked at all.
     #[error(transparent)]
     Conformance(#[from] ConformanceError),

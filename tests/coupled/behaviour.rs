@@ -106,11 +106,52 @@ fn nothing_slips_within_the_stick_radius() {
     assert!(worn > 10, "{worn}");
 }
 
+/// ||a - b|| / ||b||.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>().sqrt();
+    norm(&mut a.iter().zip(b).map(|(a, b)| a - b)) / norm(&mut b.iter().copied())
+}
+
 #[test]
-fn averaging_wears_the_contact_alike() {
-    let record = run(&ball("average = true", "", LOADED, "[integrator]\nsubsteps = 1\n"));
-    let worn: Vec<f64> = record.wear.iter().copied().filter(|wear| *wear > 0.0).collect();
-    assert!(worn.len() > 10 && worn.iter().all(|wear| *wear == worn[0]), "{worn:?}");
+fn averaging_wears_the_contact_alike_and_what_touches_beside_it_no_more() {
+    for contact in ["", "boundary = \"periodic\""] {
+        let steps =
+            |count: u32| run(&ball("average = true", contact, LOADED, &format!("[integrator]\nsubsteps = {count}\n")));
+        let record = steps(1);
+        let deepest = record.wear.iter().fold(0.0, |most: f64, wear| most.max(*wear));
+        let (mut inside, mut beside) = (0, 0);
+        for (wear, pressure) in record.wear.iter().zip(&record.pressure) {
+            assert!(if *pressure > 0.0 { *wear == deepest } else { *wear < deepest }, "{wear:e} of {deepest:e}");
+            inside += usize::from(*pressure > 0.0);
+            beside += usize::from(*pressure == 0.0 && *wear > 0.0);
+        }
+        assert!(inside > 10 && beside > 10, "{inside} {beside}");
+        near(record.history.last().expect("rows").wear_volume.expect("a volume"), 1e-13 * 20.0 * 0.02, 1e-12);
+        // Under a steady load nothing is left to the length of the steps.
+        assert!(apart(&steps(60).wear, &record.wear) < 1e-6, "{:e}", apart(&steps(60).wear, &record.wear));
+    }
+}
+
+#[test]
+fn averaging_under_a_held_approach_is_of_first_order_and_keeps_its_tolerance() {
+    let held = |rest: &str| run(&ball("average = true", "", "approach = 1e-6\nvelocity = 1.0", rest));
+    let fine = held("[integrator]\nsubsteps = 640\n");
+    let error = |substeps: u32| apart(&held(&format!("[integrator]\nsubsteps = {substeps}\n")).wear, &fine.wear);
+    let (coarse, finer) = (error(5), error(40));
+    assert!(finer < 0.25 * coarse && coarse < 0.2, "{coarse:e} {finer:e}");
+    let kept = held("[integrator]\ntolerance = 1e-3\n");
+    assert!(apart(&kept.wear, &fine.wear) < 2e-3 && kept.cost.steps < 2000, "{} steps", kept.cost.steps);
+}
+
+#[test]
+fn nodal_tractions_leave_a_contact_at_the_end_of_every_step() {
+    let law = "basis = \"nodal-stress\"";
+    let steps = |count: u32| run(&ball(law, "", LOADED, &format!("[integrator]\nsubsteps = {count}\n")));
+    let fine = steps(320);
+    let [coarse, finer] = [20, 80].map(|count| apart(&steps(count).wear, &fine.wear));
+    assert!(finer < 0.5 * coarse && coarse < 5e-2, "{coarse:e} {finer:e}");
+    // One solve a stage: none to put right what the neighbours of the contact have worn.
+    assert!(fine.cost.contact_solves < 2 * 320 + 30, "{}", fine.cost.contact_solves);
 }
 
 #[test]

@@ -17,6 +17,21 @@ pub enum Law {
     Ploughing,
     /// A rate that wants short substeps.
     Impatient,
+    /// A wear coefficient that grows with the temperature.
+    Warm,
+}
+
+/// What temperature does in a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Heat {
+    /// It is not given.
+    None,
+    /// It is given and nobody reads it.
+    Idle,
+    /// The constants depend on it, or on it and time.
+    Table { time: bool },
+    /// The law reads it.
+    Read,
 }
 
 /// Units of a scene: everything in it is of the order of one in these.
@@ -86,6 +101,15 @@ pub fn draw(seed: u64, units: Units) -> Drawn {
         4 if random.chance(0.2) => Law::Archard(-0.5),
         _ => Law::Archard(random.one(&[1.0, 1.0, 0.5, 2.0])),
     };
+    // Numbers of their own, so that scenes without temperatures stay as they are.
+    let warmth = &mut Random(seed ^ 0x7e39_0a71_c5d2_64b3);
+    let heat = match (law, warmth.below(12)) {
+        (_, 0) => Heat::Read,
+        (Law::Archard(_), 1 | 2) => Heat::Table { time: warmth.chance(0.3) },
+        (_, 3) => Heat::Idle,
+        _ => Heat::None,
+    };
+    let law = if heat == Heat::Read { Law::Warm } else { law };
     let averaged = random.chance(0.1);
     let method = random.one(&["auto", "auto", "auto", "explicit-euler", "implicit-euler", "tr-bdf2", "sdirk2"]);
     // Without stages these are refused; some are enough.
@@ -109,7 +133,7 @@ pub fn draw(seed: u64, units: Units) -> Drawn {
     let m = if let Law::Archard(m) = law { m } else { 1.0 };
     let coefficient = (worn / pressed.powf(m)) / modulus.powf(m);
     let patience = random.between(0.05, 2.0) * time;
-    let mut text = law_section(random, units, law, (coefficient, patience));
+    let mut text = law_section((random, warmth), units, law, (coefficient, patience), heat);
     let basis = if random.chance(0.15) { "nodal-stress" } else { "pressure" };
     let mode = if post { "post" } else { "apply" };
     let _ = writeln!(text, "basis = \"{basis}\"\naverage = {averaged}\nmode = \"{mode}\"");
@@ -131,7 +155,7 @@ pub fn draw(seed: u64, units: Units) -> Drawn {
     let size = format!("{length:e}");
     let _ = writeln!(text, "[grid]\nsize = {}\ncells = {}", pair(flat, &size, &size), pair(flat, counts[0], counts[1]));
     let _ = writeln!(text, "[surface]\n{surface}");
-    text += &steps(random, units, (flat, by_load, scaling), pressed, counts, &mut files);
+    text += &steps((random, warmth), units, (flat, by_load, scaling, heat), pressed, counts, &mut files);
     let _ = writeln!(text, "[integrator]\nmethod = \"{method}\"\n{accuracy}");
     if !beyond_limit.is_empty() {
         let _ = writeln!(text, "beyond_limit = \"{beyond_limit}\"");
@@ -217,7 +241,13 @@ fn model(random: &mut Random, Units { length, modulus, .. }: Units, springs: boo
 }
 
 /// The law with constants that wear `coefficient` p^m for a length of sliding.
-fn law_section(random: &mut Random, Units { length, time, .. }: Units, law: Law, (k, patience): (f64, f64)) -> String {
+fn law_section(
+    (random, warmth): (&mut Random, &mut Random),
+    Units { length, time, .. }: Units,
+    law: Law,
+    (k, patience): (f64, f64),
+    heat: Heat,
+) -> String {
     let head = "[law]\nuse = \"archard\"\n";
     let constants = |list: &[f64]| {
         let list: Vec<String> = list.iter().map(|value| format!("{value:e}")).collect();
@@ -225,7 +255,20 @@ fn law_section(random: &mut Random, Units { length, time, .. }: Units, law: Law,
     };
     match law {
         Law::Archard(m) => {
-            if random.chance(0.2) {
+            let in_time = random.chance(0.2);
+            if let Heat::Table { time: both } = heat {
+                let mut rows = Vec::new();
+                for at in if both { vec![0.0, 0.7 * time] } else { vec![f64::NAN] } {
+                    let when = if both { format!("time = {at:e}, ") } else { String::new() };
+                    for warm in [300.0, 450.0, 600.0] {
+                        let k = warmth.between(0.5, 1.5) * k;
+                        let constants = format!("{{ K = {k:e}, H = 1.0, m = {m}, n = 1.0 }}");
+                        rows.push(format!("{{ {when}temperature = {warm}, constants = {constants} }}"));
+                    }
+                }
+                return format!("{head}table = [{}]\n", rows.join(", "));
+            }
+            if in_time {
                 // Break points in time are events.
                 let row = |at: f64, factor: f64| {
                     let k = factor * k;
@@ -239,14 +282,16 @@ fn law_section(random: &mut Random, Units { length, time, .. }: Units, law: Law,
         Law::Work => constants(&[k / 0.3]),
         Law::Ploughing => constants(&[k, random.between(0.0, 2.0)]),
         Law::Impatient => constants(&[k, patience]),
+        // 1.4 k at the highest temperature.
+        Law::Warm => constants(&[k, 5e-4]),
     }
 }
 
 /// Load steps, or a cycle of them.
 fn steps(
-    random: &mut Random,
+    (random, warmth): (&mut Random, &mut Random),
     Units { length, modulus, time }: Units,
-    (flat, by_load, scaling): (bool, bool, &str),
+    (flat, by_load, scaling, heat): (bool, bool, &str, Heat),
     pressed: f64,
     counts: [usize; 2],
     files: &mut Vec<(String, String)>,
@@ -263,6 +308,13 @@ fn steps(
         let head = if cycles { "[[cycle.step]]" } else { "[[step]]" };
         let _ = writeln!(text, "{head}\nduration = {time:e}\n{key} = {:e}", value * unit);
         let ramps = scaling != "auto" && !(cycles && index == 0);
+        let mut ramped = Vec::new();
+        if heat != Heat::None {
+            let _ = writeln!(text, "temperature = {:e}", warmth.between(200.0, 700.0));
+            if ramps && warmth.chance(0.6) {
+                ramped.push("temperature");
+            }
+        }
         match random.below(8) {
             0 => {
                 let _ = writeln!(text, "stroke = {:e}\nfrequency = {:e}", 0.25 * length, 2.0 / time);
@@ -286,13 +338,15 @@ fn steps(
                     let _ = writeln!(text, "stick = {:e}", 0.1 * length);
                 }
                 if ramps && random.chance(0.2) {
-                    text += "ramp = [\"velocity\"]\n";
-                    continue;
+                    ramped.push("velocity");
                 }
             }
         }
-        if ramps && random.chance(0.25) {
-            let _ = writeln!(text, "ramp = [\"{key}\"]");
+        if ramps && !ramped.contains(&"velocity") && random.chance(0.25) {
+            ramped.push(key);
+        }
+        if !ramped.is_empty() {
+            let _ = writeln!(text, "ramp = {ramped:?}");
         }
     }
     text

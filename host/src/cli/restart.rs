@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
+use super::console::Console;
 use super::opening::OpenedLaw;
+use crate::contact::{INSTRUCTIONS_VARIABLE, Instructions};
 use crate::error::Error;
 use crate::output::{CHECKPOINT, Stored, read_checkpoint};
 use crate::record::{Identity, LawIdentity};
@@ -25,6 +27,7 @@ pub(super) fn identity(scene: &Scene, law: &OpenedLaw, run: &Run<'_>) -> Result<
         },
         scene: scene.map_err(|error| Error::Fault { what: format!("the scene as JSON: {error}") })?,
         contents: run.contents()?,
+        instructions: Instructions::asked()?.name().to_owned(),
     })
 }
 
@@ -32,12 +35,20 @@ pub(super) fn identity(scene: &Scene, law: &OpenedLaw, run: &Run<'_>) -> Result<
 ///
 /// # Errors
 /// A file that is no checkpoint, is damaged, or is of another run.
-pub(super) fn earlier(out: &Path, identity: &Identity) -> Result<Option<Stored>, Error> {
+pub(super) fn earlier(console: &Console, out: &Path, identity: &Identity) -> Result<Option<Stored>, Error> {
     let path = out.join(CHECKPOINT);
     if !path.exists() {
         return Ok(None);
     }
     let stored = read_checkpoint(&path)?;
     identity.follows(&stored.identity, stored.checkpoint.time)?;
+    let (before, now) = (&stored.identity.instructions, &identity.instructions);
+    if before != now && !before.is_empty() {
+        console.note(&format!(
+            "warning: the checkpoint was written with {before} instructions, the run goes on with {now}: the last digits may \
+             differ from those of a run that was never stopped ({INSTRUCTIONS_VARIABLE}={before} keeps them, where the \
+             processor has them)"
+        ));
+    }
     Ok(Some(stored))
 }

@@ -14,6 +14,7 @@ use super::restart;
 use super::summary::Summary;
 use super::table::labelled;
 use super::writing::{Comparison, Listener};
+use crate::contact::Instructions;
 use crate::error::{Error, UsageError};
 use crate::exit_code::ExitCode;
 use crate::law::build::Language;
@@ -72,7 +73,7 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     let run = Run::prepare(&plan, law.evaluator.as_ref())?;
     run.check_reference()?;
     let identity = restart::identity(&scene, &law, &run)?;
-    let earlier = if settings.resume { restart::earlier(&settings.out, &identity)? } else { None };
+    let earlier = if settings.resume { restart::earlier(console, &settings.out, &identity)? } else { None };
     if settings.resume && earlier.is_none() {
         console.note(&format!("no checkpoint in {}: the run begins at its start", settings.out.display()));
     }
@@ -229,6 +230,7 @@ pub(super) fn report(
             isolated,
             build_time_s: law.build_seconds,
         },
+        instructions: Instructions::asked()?.name().to_owned(),
         computed: plan.computed.clone(),
         skipped: json("the plan", serde_json::to_value(&plan.skipped))?,
         memory: record.memory.clone(),
@@ -291,6 +293,7 @@ pub(super) fn prepared(
     file: &std::path::Path,
     shared: &SceneArguments,
 ) -> Result<(Scene, OpenedLaw), Error> {
+    Instructions::asked()?;
     let overrides: Vec<Override> = shared.overrides.iter().map(|text| Override::from(text.as_str())).collect();
     if let Some(what) = law_instead_of_scene(file) {
         return Err(UsageError::LawNotScene { path: file.to_owned(), what }.into());

@@ -8,6 +8,7 @@ mod cells;
 mod error;
 pub mod foundation;
 pub mod halfspace;
+mod instructions;
 mod npy;
 pub mod prescribed;
 mod problem;
@@ -16,6 +17,8 @@ mod traction;
 
 pub use cells::Cells;
 pub use error::ContactError;
+pub use instructions::{INSTRUCTIONS_VARIABLE, Instructions, InstructionsError};
 pub use npy::ArrayFault;
 pub use problem::{ContactModel, Control, Diagonal, Problem, Solution};
+pub(crate) use traction::averaged_twice;
 pub use traction::{corners_and_back, nodal_traction};

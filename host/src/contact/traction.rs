@@ -3,7 +3,7 @@
 use super::Cells;
 
 /// M p `[cells]`, M = B^T B: the mean of each corner's cells, then the mean of each cell's corners, on the cells that carry
-/// pressure; zero elsewhere. What lies beyond the grid carries none, unless the grid repeats.
+/// pressure; zero elsewhere. A corner on the rim of a grid that does not repeat has fewer cells.
 ///
 /// Its symbol is cos^2(q h / 2) in every direction, not negative: implicit wear from it damps every wave, while a one-way
 /// average to the corners feeds the chequerboard.
@@ -12,33 +12,33 @@ pub fn nodal_traction(cells: &Cells, periodic: bool, pressure: &[f64], out: &mut
     out.iter_mut().zip(pressure).filter(|(_, pressure)| **pressure == 0.0).for_each(|(out, _)| *out = 0.0);
 }
 
-/// M p `[cells]` with the cells next to those that carry pressure: a traction that has no jump where a cell closes.
+/// M p `[cells]` with the cells next to those that carry pressure: a traction that has no jump where a cell closes. Its sum
+/// is that of the pressures.
 pub fn corners_and_back(cells: &Cells, periodic: bool, pressure: &[f64], out: &mut [f64]) {
-    let [nx, ny] = cells.counts;
-    let near = |at: usize, count: usize, by: isize| -> Option<usize> {
-        let to = at as isize + by;
-        if (0..count as isize).contains(&to) {
-            Some(to as usize)
-        } else if periodic {
-            Some(to.rem_euclid(count as isize) as usize)
-        } else {
-            None
-        }
+    averaged_twice(cells.counts, [periodic; 2], pressure, out);
+}
+
+/// M p `[counts]` on a rectangle of cells that repeats along some axes.
+///
+/// M is the product of the like in x and in y, (1, 2, 1) / 4, a neighbour beyond a side that does not repeat being the cell
+/// itself; symmetric, with eigenvalues from 0 to 1.
+pub fn averaged_twice(counts: [usize; 2], repeats: [bool; 2], pressure: &[f64], out: &mut [f64]) {
+    let [nx, ny] = counts;
+    let beside = |at: usize, axis: usize| match (counts[axis], repeats[axis]) {
+        (count, true) => [(at + count - 1) % count, (at + 1) % count],
+        (count, false) => [at.saturating_sub(1), (at + 1).min(count - 1)],
     };
-    // Twice the half-half average of neighbours is the weight 1/4, 1/2, 1/4 along each axis.
-    let along_y = if cells.dimension == 2 { &[(0, 1.0)][..] } else { &[(-1, 0.25), (0, 0.5), (1, 0.25)][..] };
-    for j in 0..ny {
-        for i in 0..nx {
-            let mut sum = 0.0;
-            for (dj, weight_y) in along_y {
-                let Some(row) = near(j, ny, *dj) else { continue };
-                for (di, weight_x) in [(-1, 0.25), (0, 0.5), (1, 0.25)] {
-                    if let Some(column) = near(i, nx, di) {
-                        sum += weight_y * weight_x * pressure[row * nx + column];
-                    }
-                }
-            }
-            out[j * nx + i] = sum;
+    let mut along = vec![0.0; pressure.len()];
+    for (row, along) in pressure.chunks_exact(nx).zip(along.chunks_exact_mut(nx)) {
+        for (x, along) in along.iter_mut().enumerate() {
+            let [left, right] = beside(x, 0);
+            *along = 0.5 * row[x] + 0.25 * (row[left] + row[right]);
+        }
+    }
+    for (y, out) in out.chunks_exact_mut(nx).enumerate().take(ny) {
+        let [below, above] = beside(y, 1);
+        for (x, out) in out.iter_mut().enumerate() {
+            *out = 0.5 * along[y * nx + x] + 0.25 * (along[below * nx + x] + along[above * nx + x]);
         }
     }
 }
@@ -63,9 +63,10 @@ mod tests {
         let cells = Cells { dimension: 2, counts: [5, 1], spacing: [1.0, 1.0] };
         let mut out = vec![9.0; 5];
         corners_and_back(&cells, false, &[0.0, 4.0, 0.0, 0.0, 8.0], &mut out);
-        assert_eq!(out, [1.0, 2.0, 1.0, 2.0, 4.0]);
+        // The last corner has no other cell.
+        assert_eq!(out, [1.0, 2.0, 1.0, 2.0, 6.0]);
         nodal_traction(&cells, false, &[0.0, 4.0, 0.0, 0.0, 8.0], &mut out);
-        assert_eq!(out, [0.0, 2.0, 0.0, 0.0, 4.0]);
+        assert_eq!(out, [0.0, 2.0, 0.0, 0.0, 6.0]);
     }
 
     #[test]

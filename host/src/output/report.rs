@@ -48,6 +48,8 @@ pub struct Report {
     pub scene: Value,
     /// The law.
     pub law: LawReport,
+    /// The processor's instructions that transforms are made with, on which their last bits depend.
+    pub instructions: String,
     /// What was computed, a line each.
     pub computed: Vec<String>,
     /// What was left out, and why.
@@ -100,6 +102,7 @@ impl Report {
             "ended": self.ended,
             "scene": self.scene,
             "law": self.law,
+            "instructions": self.instructions,
             "plan": {
                 "computed": self.computed,
                 "skipped": self.skipped,

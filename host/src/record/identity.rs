@@ -44,6 +44,10 @@ pub struct Identity {
     pub scene: Value,
     /// SHA-256 of what stands behind names of files, by what it is.
     pub contents: BTreeMap<String, String>,
+    /// The processor's instructions that transforms are made with; empty where there are none. With others the last digits
+    /// may differ, which does not make it another run.
+    #[serde(default)]
+    pub instructions: String,
 }
 
 /// Why a run cannot go on from a checkpoint of another run.
@@ -240,6 +244,7 @@ mod tests {
             law: LawIdentity { name: "archard".to_owned(), version: "1.0".to_owned(), sha256: None },
             scene,
             contents: [("the history".to_owned(), "aa".to_owned())].into(),
+            instructions: "avx2".to_owned(),
         }
     }
 

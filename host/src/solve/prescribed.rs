@@ -316,7 +316,10 @@ impl<'p> Prescribed<'p> {
     ) -> Result<Option<ErrorNorm>, SolveError> {
         if matches!(self.plan.reference, Some(ReferencePlan::Refined)) {
             let wear = self.refined(observer)?;
-            return Ok(Some(compare(&record.wear, &wear, "the same scene to a tolerance 100 times tighter")));
+            let unscaled = self.plan.material.scaling.kind != ScalingKind::None;
+            let how = if unscaled { ", without scaling" } else { "" };
+            let name = format!("the same scene to a tolerance 100 times tighter{how}");
+            return Ok(Some(compare(&record.wear, &wear, &name)));
         }
         let expected = self.expected(record)?;
         Ok(expected.map(|expected| compare(&record.wear, &expected.wear, &expected.reference)))

@@ -7,10 +7,11 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner, num_complex::Complex};
+use rustfft::{Fft, FftDirection, num_complex::Complex};
 
 use super::symbol::Quarter;
+use super::transforms::{Real, complex};
+use crate::contact::Instructions;
 
 /// Columns in a strip: two lines of cache in each row.
 const STRIP: usize = 8;
@@ -40,8 +41,7 @@ pub struct Convolution {
     threads: usize,
     /// `[strip][row][STRIP]`, the strips a little apart so that they do not fall on the same lines of cache.
     spectrum: Vec<Complex<f64>>,
-    forward: Arc<dyn RealToComplex<f64>>,
-    backward: Arc<dyn ComplexToReal<f64>>,
+    real: Real,
     forward_column: Arc<dyn Fft<f64>>,
     backward_column: Arc<dyn Fft<f64>>,
     benches: Vec<Bench>,
@@ -84,18 +84,15 @@ impl Rows for Dense<'_> {
 impl Convolution {
     /// Over `counts` cells with the transform of a kernel on a padded grid (or one of the same size: periodic); with the
     /// threads of rayon's current pool if `threads` is not 1.
-    pub fn new(counts: [usize; 2], mut symbol: Quarter, threads: usize) -> Convolution {
+    pub fn new(counts: [usize; 2], mut symbol: Quarter, set: Instructions, threads: usize) -> Convolution {
         let padded = symbol.periods;
         let normal = 1.0 / (padded[0] * padded[1]) as f64;
         symbol.values.iter_mut().for_each(|value| *value *= normal);
-        let (mut real, mut complex) = (RealFftPlanner::new(), FftPlanner::new());
-        let forward = real.plan_fft_forward(padded[0]);
-        let backward = real.plan_fft_inverse(padded[0]);
-        let forward_column: Arc<dyn Fft<f64>> = complex.plan_fft_forward(padded[1]);
-        let backward_column = complex.plan_fft_inverse(padded[1]);
+        let real = Real::new(set, padded[0]);
+        let [forward_column, backward_column] =
+            [FftDirection::Forward, FftDirection::Inverse].map(|direction| complex(set, padded[1], direction));
         let strips = (padded[0] / 2 + 1).div_ceil(STRIP);
-        let scratch = forward.get_scratch_len().max(backward.get_scratch_len());
-        let scratch = scratch.max(forward_column.get_inplace_scratch_len());
+        let scratch = real.scratch().max(forward_column.get_inplace_scratch_len());
         let scratch = scratch.max(backward_column.get_inplace_scratch_len());
         let bench = Bench {
             row: vec![0.0; padded[0]],
@@ -109,8 +106,7 @@ impl Convolution {
             symbol,
             threads,
             spectrum: Vec::new(),
-            forward,
-            backward,
+            real,
             forward_column,
             backward_column,
             benches: vec![bench],
@@ -149,6 +145,17 @@ impl Convolution {
         8 * self.symbol.values.len() + complex * self.spectrum.len() + benches
     }
 
+    /// Bytes of one over `counts` cells with transforms on a padded grid, before it is made; without what the plans of the
+    /// transforms hold.
+    pub fn bytes_for(counts: [usize; 2], padded: [usize; 2], threads: usize) -> usize {
+        let [half_x, half_y] = padded.map(|count| count / 2 + 1);
+        let wide = in_strips(half_x);
+        let complex = size_of::<Complex<f64>>();
+        let bench = 8 * padded[0] + complex * (BLOCK * wide + STRIP * (padded[1] + APART) + padded[0].max(padded[1]));
+        let benches = if threads > 1 && padded[0] * counts[1] >= WORTH { 2 * threads } else { 1 };
+        8 * half_x * half_y + complex * wide * (counts[1] + 1) + benches * bench
+    }
+
     /// Convolves; `out` gets what `rows` wants of the result.
     pub fn apply(&mut self, rows: &impl Rows, out: &mut [f64]) {
         let [nx, ny] = self.counts;
@@ -156,7 +163,7 @@ impl Convolution {
         let apart = STRIP * (ny + 1);
         let groups = self.benches.len().min(ny);
         let group = ny.div_ceil(groups);
-        let forward = &self.forward;
+        let real = &self.real;
         let wide = in_strips(bins);
         each(&mut self.benches, split_rows(&mut self.spectrum, apart, ny, group), |bench, index, mut strips| {
             let (begin, end) = (index * group, ny.min((index + 1) * group));
@@ -165,8 +172,7 @@ impl Convolution {
                 for (row, spectrum) in block.clone().zip(bench.bins.chunks_exact_mut(wide)) {
                     bench.row.fill(0.0);
                     if rows.read(row, &mut bench.row[..nx]) {
-                        let scratch = &mut bench.scratch[..forward.get_scratch_len()];
-                        done(forward.process_with_scratch(&mut bench.row, &mut spectrum[..bins], scratch));
+                        real.forward(&bench.row, &mut spectrum[..bins], &mut bench.scratch);
                     } else {
                         spectrum.fill(ZERO);
                     }
@@ -198,7 +204,6 @@ impl Convolution {
                 }
             });
         }
-        let backward = &self.backward;
         let mut rest = out;
         let mut outs = Vec::with_capacity(groups);
         for index in 0..groups {
@@ -228,13 +233,7 @@ impl Convolution {
                     if from == to {
                         continue;
                     }
-                    // What rounding left of the imaginary parts of bins that are real.
-                    spectrum[0].im = 0.0;
-                    if self.padded[0].is_multiple_of(2) {
-                        spectrum[bins - 1].im = 0.0;
-                    }
-                    let scratch = &mut bench.scratch[..backward.get_scratch_len()];
-                    done(backward.process_with_scratch(&mut spectrum[..bins], &mut bench.row, scratch));
+                    real.backward(&mut spectrum[..bins], &mut bench.row, &mut bench.scratch);
                     rows.write(row, &bench.row[..nx], &mut out[from..to]);
                 }
             }
@@ -306,9 +305,4 @@ fn each<T: Send>(benches: &mut [Bench], work: Vec<T>, act: impl Fn(&mut Bench, u
     } else if let Some(bench) = benches.first_mut() {
         work.into_iter().enumerate().for_each(|(index, piece)| act(bench, index, piece));
     }
-}
-
-/// A transform whose slices have the plan's own lengths cannot fail.
-fn done(result: Result<(), realfft::FftError>) {
-    debug_assert!(result.is_ok(), "{result:?}");
 }

@@ -4,6 +4,7 @@ use super::Boundary;
 use super::convolve::Convolution;
 use super::influence;
 use super::symbol::Quarter;
+use crate::contact::Instructions;
 
 /// The compliance of equal cells in scaled units.
 #[derive(Clone, Debug)]
@@ -20,6 +21,8 @@ pub struct Kernel {
     pub soft: f64,
     /// Distance at which the displacement is zero; 2-D with a free boundary only.
     pub datum: f64,
+    /// What transforms are made with.
+    pub instructions: Instructions,
     /// The compliance at all lags, once it was needed; periodic only.
     lags: Option<Quarter>,
     /// The least of all, once it was needed.
@@ -35,7 +38,8 @@ pub type Sizes = ([usize; 2], [usize; 2]);
 impl Kernel {
     /// Of cells in these units.
     pub fn new(flat: bool, boundary: Boundary, counts: [usize; 2], spacing: [f64; 2], soft: f64, datum: f64) -> Kernel {
-        Kernel { flat, boundary, counts, spacing, soft, datum, lags: None, least: None }
+        let instructions = Instructions::in_use();
+        Kernel { flat, boundary, counts, spacing, soft, datum, instructions, lags: None, least: None }
     }
 
     /// Displacement per pressure of a mode of a periodic surface with this many cells.
@@ -68,10 +72,10 @@ impl Kernel {
 
     /// The compliance at all lags of a period.
     fn lags(&mut self) -> &Quarter {
-        let (counts, spacing, soft) = (self.counts, self.spacing, self.soft);
+        let (counts, spacing, soft, set) = (self.counts, self.spacing, self.soft, self.instructions);
         self.lags.get_or_insert_with(|| {
             let cells = (counts[0] * counts[1]) as f64;
-            Quarter::from_lags(counts, |x, y| soft / cells * influence::mode([x, y], counts, spacing)).transformed()
+            Quarter::from_lags(counts, |x, y| soft / cells * influence::mode([x, y], counts, spacing)).transformed(set)
         })
     }
 
@@ -96,17 +100,17 @@ impl Kernel {
 
     /// The convolution over a window.
     pub fn convolution(&mut self, sizes: Sizes, threads: usize) -> Convolution {
-        let (counts, padded) = sizes;
+        let ((counts, padded), set) = (sizes, self.instructions);
         let whole = self.boundary == Boundary::Periodic && padded == self.counts;
         let symbol = if whole {
             Quarter::from_lags(padded, |x, y| self.mode([x, y], padded))
         } else if self.boundary == Boundary::Periodic {
             let lags = self.lags();
-            Quarter::from_lags(padded, |x, y| lags.at(x, y)).transformed()
+            Quarter::from_lags(padded, |x, y| lags.at(x, y)).transformed(set)
         } else {
-            Quarter::from_lags(padded, |x, y| self.free([x, y])).transformed()
+            Quarter::from_lags(padded, |x, y| self.free([x, y])).transformed(set)
         };
-        Convolution::new(counts, symbol, threads)
+        Convolution::new(counts, symbol, set, threads)
     }
 
     /// Bytes that it holds.

@@ -90,8 +90,10 @@ pub fn coarser(kernel: &Kernel, sum: Option<f64>, gap: impl Fn(usize) -> f64, lo
     let mut spacing = kernel.spacing;
     spacing.iter_mut().zip(factor).for_each(|(spacing, factor)| *spacing *= factor as f64);
     let local = if local.len() > 1 { averaged([nx, ny], factor, |cell| local[cell]) } else { local.to_vec() };
+    let mut coarse = Kernel::new(kernel.flat, kernel.boundary, counts, spacing, kernel.soft, kernel.datum);
+    coarse.instructions = kernel.instructions;
     Level {
-        kernel: Kernel::new(kernel.flat, kernel.boundary, counts, spacing, kernel.soft, kernel.datum),
+        kernel: coarse,
         gap: averaged([nx, ny], factor, gap),
         local,
         sum: sum.map(|sum| sum / (factor[0] * factor[1]) as f64),

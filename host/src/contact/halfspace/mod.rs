@@ -11,7 +11,6 @@ mod frozen;
 mod influence;
 mod kernel;
 mod levels;
-mod local;
 mod neighbours;
 mod passes;
 mod patch;
@@ -25,9 +24,10 @@ mod stencil;
 mod symbol;
 #[cfg(test)]
 mod tests;
+mod transforms;
 mod window;
 
-use super::{Cells, ContactError, ContactModel, Problem, Solution};
+use super::{Cells, ContactError, ContactModel, Instructions, Problem, Solution};
 use convolve::{Convolution, Dense};
 use kernel::{Kernel, Sizes};
 use room::Room;
@@ -74,6 +74,27 @@ impl HalfSpace {
         let datum = datum.map_or(0.5 * cells.counts[0] as f64 * spacing[0], |datum| datum / length);
         let kernel = Kernel::new(flat, boundary, cells.counts, spacing, modulus_unit / modulus, datum);
         HalfSpace { cells, length, modulus_unit, kernel, threads, kept: Vec::new(), room: Room::default() }
+    }
+
+    /// The same with transforms by this set of instructions instead of that of the process.
+    #[must_use]
+    pub fn with_instructions(mut self, set: Instructions) -> HalfSpace {
+        self.kernel.instructions = set;
+        self
+    }
+
+    /// Bytes that it holds at most during solves: for transforms, over all cells and over a window of them, and in arrays of
+    /// a search with all cells in contact. A local compliance that `varies` and acts on smoothed pressures takes more: the
+    /// directions that minimal residuals keep.
+    #[must_use]
+    pub fn most_bytes(&self, varies: bool, smoothed: bool) -> [usize; 2] {
+        let (counts, padded) = self.kernel.sizes(self.cells.counts);
+        let window = self.kernel.sizes(counts.map(|count| count.div_ceil(2))).1;
+        let transforms = [padded, window].map(|padded| Convolution::bytes_for(counts, padded, self.threads));
+        let lags = if self.kernel.boundary == Boundary::Periodic { 2 * self.cells.count() } else { 0 };
+        let directions = if varies && smoothed { residual::MOST_ARRAYS } else { 0 };
+        let arrays = search::MOST_ARRAYS + if varies { 2 } else { 0 } + directions;
+        [transforms[0] + transforms[1] + lags, 8 * self.cells.count() * arrays]
     }
 
     /// The convolution over a window, kept or made; to be given back by [`HalfSpace::keep`].

@@ -1,11 +1,10 @@
 //! A contact problem on a window of the cells, with the operator A + b on it.
 
-use super::Boundary;
 use super::contact_set::{ContactSet, FromSet, OnSet};
 use super::convolve::{Convolution, Dense};
 use super::kernel::Kernel;
-use super::local::smoothed;
 use super::room::Room;
+use crate::contact::averaged_twice;
 
 /// A problem on a window, in scaled units, gaps counted from the datum of the problem.
 pub struct Patch<'a> {
@@ -65,7 +64,7 @@ impl Patch<'_> {
         }
         if self.smoothed {
             let mut smooth = vec![0.0; pressure.len()];
-            smoothed(self.counts, self.sides(), pressure, &mut smooth);
+            averaged_twice(self.counts, self.wraps, pressure, &mut smooth);
             out.iter_mut().enumerate().for_each(|(cell, out)| *out += self.local(cell) * smooth[cell]);
         } else if let [uniform] = self.local[..] {
             out.iter_mut().zip(pressure).for_each(|(out, pressure)| *out += uniform * pressure);
@@ -85,7 +84,7 @@ impl Patch<'_> {
         if self.smoothed {
             let (mut field, mut smooth) = (vec![0.0; self.gap.len()], vec![0.0; self.gap.len()]);
             set.scatter(values, &mut field);
-            smoothed(self.counts, self.sides(), &field, &mut smooth);
+            averaged_twice(self.counts, self.wraps, &field, &mut smooth);
             for (out, cell) in out.iter_mut().zip(&set.cells) {
                 *out += self.local(*cell as usize) * smooth[*cell as usize];
             }
@@ -106,7 +105,7 @@ impl Patch<'_> {
         if self.smoothed {
             let (mut field, mut smooth) = (vec![0.0; out.len()], vec![0.0; out.len()]);
             set.scatter(values, &mut field);
-            smoothed(self.counts, self.sides(), &field, &mut smooth);
+            averaged_twice(self.counts, self.wraps, &field, &mut smooth);
             out.iter_mut().enumerate().for_each(|(cell, out)| *out += self.local(cell) * smooth[cell]);
         } else {
             let uniform = self.local[0];
@@ -125,10 +124,5 @@ impl Patch<'_> {
         let row = |y: usize| pressure[y * nx..(y + 1) * nx].iter().any(|p| *p > 0.0);
         let [x, y] = self.cut;
         x[0] && column(0) || x[1] && column(nx - 1) || y[0] && row(0) || y[1] && row(ny - 1)
-    }
-
-    /// What is beyond the sides of the window: itself or no pressure.
-    fn sides(&self) -> [Boundary; 2] {
-        self.wraps.map(|wraps| if wraps { Boundary::Periodic } else { Boundary::Free })
     }
 }

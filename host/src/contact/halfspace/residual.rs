@@ -9,6 +9,8 @@ use super::stencil::Stencil;
 
 /// Directions that are kept before the search starts anew.
 const KEPT: usize = 40;
+/// Arrays over the set at most: the basis, and directions with their images.
+pub const MOST_ARRAYS: usize = 3 * KEPT + 4;
 
 /// Reduces the residual to the goal's norm; under a load the sum of the pressures stays.
 pub fn run(descent: &mut Descent, patch: &mut Patch<'_>, set: &ContactSet, stencil: &mut Stencil, goal: &Goal) -> bool {

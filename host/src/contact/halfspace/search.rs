@@ -35,6 +35,11 @@ const SURE: f64 = 1e4;
 /// Relative difference from the sum that is given which rounding makes.
 const ROUNDING: f64 = 1e-13;
 
+/// Arrays of numbers over the cells that a search has at most, with all of them in contact: gap, pressure, displacement and
+/// the field of the stencil, a spare displacement, two of a round that may be undone, the best pressures; pressure and
+/// residual of a descent and its five; four lists of cells, half as long.
+pub const MOST_ARRAYS: usize = 17;
+
 /// How exact an answer has to be.
 #[derive(Clone, Copy, Debug)]
 pub struct Accuracy {

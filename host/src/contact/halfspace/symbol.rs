@@ -1,6 +1,9 @@
 //! Real even kernels and their transforms, which are real and even too.
 
-use realfft::RealFftPlanner;
+use rustfft::num_complex::Complex;
+
+use super::transforms::Real;
+use crate::contact::Instructions;
 
 /// A quarter of an even array with periods `periods`: `[x][y]`, x and y from 0 to half the period.
 #[derive(Clone, Debug)]
@@ -31,25 +34,22 @@ impl Quarter {
     /// Its transform, the sum over a period of value times cos(2 pi k x / period).
     ///
     /// The inverse transform is the same over the number of cells.
-    pub fn transformed(mut self) -> Quarter {
+    pub fn transformed(mut self, set: Instructions) -> Quarter {
         let [half_x, half_y] = self.periods.map(|period| period / 2 + 1);
-        let mut planner = RealFftPlanner::<f64>::new();
         for (axis, (count, step, lines, apart)) in
             [(half_y, 1, half_x, half_y), (half_x, half_y, half_y, 1)].into_iter().enumerate()
         {
             let period = self.periods[1 - axis];
-            let plan = planner.plan_fft_forward(period);
-            let (mut line, mut out) = (plan.make_input_vec(), plan.make_output_vec());
-            let mut scratch = plan.make_scratch_vec();
+            let real = Real::new(set, period);
+            let mut line = vec![0.0; period];
+            let [mut out, mut scratch] = [real.bins(), real.scratch()].map(|count| vec![Complex::default(); count]);
             for first in (0..lines).map(|line| line * apart) {
                 for k in 0..count {
                     let value = self.values[first + k * step];
                     line[k] = value;
                     line[(period - k) % period] = value;
                 }
-                // The lengths are the plan's own.
-                let done = plan.process_with_scratch(&mut line, &mut out, &mut scratch);
-                debug_assert!(done.is_ok());
+                real.forward(&line, &mut out, &mut scratch);
                 for (k, value) in out.iter().take(count).enumerate() {
                     self.values[first + k * step] = value.re;
                 }

@@ -6,7 +6,13 @@ use crate::record::LawIdentity;
 fn stored() -> Stored {
     let law = LawIdentity { name: "archard".to_owned(), version: "1".to_owned(), sha256: None };
     let scene = serde_json::json!({ "step": [{ "duration": 0.1 }] });
-    let identity = Identity { program: "0.1.0".to_owned(), law, scene, contents: Default::default() };
+    let identity = Identity {
+        program: "0.1.0".to_owned(),
+        law,
+        scene,
+        contents: Default::default(),
+        instructions: "avx2".to_owned(),
+    };
     let mut row = HistoryRow::at(0.1 + 0.2);
     (row.load, row.approach, row.wear_volume, row.cycle) = (Some(1.0 / 3.0), None, Some(-0.0), 7.5);
     let mut checkpoint = Checkpoint {

@@ -1,8 +1,13 @@
-//! Increments averaged over the contact area (C5 = 10, 11): the cells in contact at the start of the substep wear alike.
+//! Increments averaged over the contact area (C5 = 10, 11): all cells in contact wear alike.
+//!
+//! Worn alike, a contact would lose the cells at its edge, whose gap closes more slowly than that; they would open, wait,
+//! close and open again. In time such cells touch without pressure and wear just as fast as their gap is closed (Filippov,
+//! Differential Equations with Discontinuous Righthand Sides, 1988). An implicit step can give that answer: in contact a cell
+//! wears by x, an open one by what it would overlap without, at most x; together they wear what the law gives to the contact.
 
 use super::segment::Driven;
 use super::system::System;
-use crate::contact::Diagonal;
+use crate::contact::{Control, Diagonal};
 use crate::integrator::Reply;
 use crate::solve::PointError;
 
@@ -25,9 +30,10 @@ impl System<'_> {
 
     /// The averaged rate at `base + weight * rate`.
     ///
-    /// The mean increment x that the law gives on the surface worn by x falls with x (more wear, less pressure), so the
-    /// x that gives itself is bracketed by 0 and by what the unworn surface gives; it is found by regula falsi with
-    /// halved ends (Dowell and Jarratt, BIT 11, 1971), and by halving where that is slow.
+    /// Wear that is alike everywhere changes no pressure under a load: one solve of the contact, and one call of the law, give
+    /// what is worn together, and x follows from it. Under an approach the pressure falls with x: the x that gives itself is
+    /// bracketed by 0 and by what the unworn surface gives, and found by regula falsi with halved ends (Dowell and Jarratt,
+    /// BIT 11, 1971), by halving where that is slow.
     pub(super) fn averaged(
         &mut self,
         driven: Driven,
@@ -35,34 +41,43 @@ impl System<'_> {
         base: &[f64],
         rate: &mut [f64],
     ) -> Result<Reply, PointError> {
-        if self.closed.is_empty() {
-            self.open_gap(base);
-            self.solve(driven.control, Diagonal::Zero, false, self.solved.contact_tolerance)?;
-            rate.fill(0.0);
-            return Ok(Reply::Good);
-        }
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let (mut at_low, mut at_high) = (0.0, 0.0);
         let mut x = 0.0;
         let mut side = 0;
         for attempt in 0..MOST_SOLVES {
             self.open_gap(base);
-            for cell in &self.closed {
-                self.room.gap[*cell as usize] += x;
-            }
-            self.solve(driven.control, Diagonal::Zero, false, self.solved.contact_tolerance)?;
-            if let cut @ Reply::Cut(_) = self.rate(driven, rate)? {
+            // Wear by x everywhere is an approach that is less by it.
+            let control = match driven.control {
+                Control::Approach(approach) => Control::Approach(approach - x),
+                load @ Control::Load(_) => load,
+            };
+            self.solve(control, Diagonal::Zero, false, self.solved.contact_tolerance)?;
+            let solved = self.solution.approach;
+            if let cut @ Reply::Cut(_) = self.own_rate(driven, rate)? {
                 return Ok(cut);
             }
-            let mean = weight * rate[self.closed[0] as usize];
-            let excess = mean - x;
-            // To the accuracy of the contact solve, which is that of a length.
-            if excess.abs() <= self.solved.contact_tolerance * self.gap_scale.max(x) || excess.abs() <= 1e-14 * x {
+            let touching = self.pressure.iter().filter(|pressure| **pressure > 0.0).count();
+            let together =
+                weight * self.pressure.iter().zip(&*rate).filter(|(p, _)| **p > 0.0).map(|(_, r)| r).sum::<f64>();
+            self.measure_openings(base, solved);
+            if let Control::Load(_) = driven.control {
+                let x = self.shared(touching, together);
+                self.wear_alike(x, weight, rate);
+                self.solution.approach = solved + x;
                 return Ok(Reply::Good);
             }
-            if high - low <= self.solved.contact_tolerance * self.gap_scale {
-                // The mean may fall so steeply, near the end of the contact, that no x gives itself any better.
-                self.closed.iter().for_each(|cell| rate[*cell as usize] = x / weight);
+            self.solution.approach = solved + x;
+            let beside: f64 = self.room.displaced.iter().filter(|gap| **gap < x).map(|gap| x - gap.max(0.0)).sum();
+            let excess = if touching > 0 { (together - beside) / touching as f64 - x } else { -x };
+            // To the accuracy of the contact solve, which is that of a length.
+            let near = self.solved.contact_tolerance * self.gap_scale;
+            // The mean may fall so steeply, near the end of the contact, that no x gives itself any better.
+            if excess.abs() <= near.max(self.solved.contact_tolerance * x)
+                || excess.abs() <= 1e-14 * x
+                || high - low <= near
+            {
+                self.wear_alike(x, weight, rate);
                 return Ok(Reply::Good);
             }
             if excess > 0.0 {
@@ -79,7 +94,7 @@ impl System<'_> {
                 side = -1;
             }
             x = match (high.is_infinite(), attempt >= PATIENCE && attempt % 2 == 0) {
-                (true, _) => mean,
+                (true, _) => x + excess,
                 (false, true) => low.midpoint(high),
                 (false, false) => (low * at_high - high * at_low) / (at_high - at_low),
             };
@@ -89,5 +104,44 @@ impl System<'_> {
             residual: at_low.abs().min(at_high.abs()) / self.gap_scale,
             tolerance: self.solved.contact_tolerance,
         })
+    }
+
+    /// Writes into `room.displaced` how far cells are open that carry no pressure, infinity where there is one.
+    fn measure_openings(&mut self, base: &[f64], approach: f64) {
+        let mut open = std::mem::take(&mut self.room.displaced);
+        open.resize(self.pressure.len(), 0.0);
+        self.model.displacement(&self.pressure, &mut open);
+        for (cell, open) in open.iter_mut().enumerate() {
+            let gap = self.initial_gap[cell] + base[cell] + *open - approach;
+            *open = if self.pressure[cell] > 0.0 { f64::INFINITY } else { gap };
+        }
+        self.room.displaced = open;
+    }
+
+    /// The x with `touching` x + sum max(0, x - opening) = `together`.
+    fn shared(&self, touching: usize, together: f64) -> f64 {
+        if touching == 0 {
+            return 0.0;
+        }
+        let most = together / touching as f64;
+        let mut near: Vec<f64> =
+            self.room.displaced.iter().filter(|open| **open < most).map(|open| open.max(0.0)).collect();
+        near.sort_by(f64::total_cmp);
+        let (mut count, mut sum) = (touching as f64, together);
+        for open in near {
+            if sum <= open * count {
+                break;
+            }
+            (count, sum) = (count + 1.0, sum + open);
+        }
+        sum / count
+    }
+
+    /// The rate of cells in contact that wear by x over a stage, and of those beside it that touch.
+    fn wear_alike(&self, x: f64, weight: f64, rate: &mut [f64]) {
+        for ((rate, pressure), open) in rate.iter_mut().zip(&self.pressure).zip(&self.room.displaced) {
+            let worn = if *pressure > 0.0 { x } else { (x - open.max(0.0)).max(0.0) };
+            *rate = if worn > 0.0 { worn / weight } else { 0.0 };
+        }
     }
 }

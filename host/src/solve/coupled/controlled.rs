@@ -13,7 +13,7 @@ use super::stepper::{Accepted, Moment, Reach};
 use super::system::System;
 use crate::integrator::{AdvanceError, norm};
 use crate::record::{Estimated, HistoryRow};
-use crate::scene::Every;
+use crate::scene::{Every, ScalingKind};
 use crate::solve::ending::stop_reached;
 use crate::solve::{PointError, SolveError};
 
@@ -80,6 +80,16 @@ struct Taken {
     row: HistoryRow,
 }
 
+/// A step of a pass that stands, to be gone through again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Again {
+    /// Simulated time of its end, and its simulated length.
+    pub(super) until: f64,
+    pub(super) length: f64,
+    /// Tries that were thrown away for it.
+    pub(super) rejected: u64,
+}
+
 impl<'p> Coupled<'p> {
     /// Goes through a stretch of a segment to the plan's tolerance.
     ///
@@ -144,7 +154,16 @@ impl<'p> Coupled<'p> {
                 // Far within the tolerance: the next stretch begins with fewer steps.
                 going.control.steps = if error < budget / 16.0 { before.steps.div_ceil(2) } else { before.steps };
                 going.rejected += before.steps;
-                return self.accept(system, going, segment, (&begin, &fine));
+                if self.plan.material.scaling.kind == ScalingKind::Cycle {
+                    match self.change(system, begin.pressed(), &segment, until) {
+                        Ok(change) => going.place.change += change,
+                        Err(error) => {
+                            going.stepper.return_to(system, &begin);
+                            return Err(error.into());
+                        }
+                    }
+                }
+                return self.accept(system, going, segment, (&begin, &fine), cycles_per_time);
             }
             going.rejected += before.steps;
             let factor = (1.2 * error / budget).ceil().min(MOST_MORE as f64) as u64;
@@ -229,27 +248,64 @@ impl<'p> Coupled<'p> {
         going: &mut Going<'_>,
         segment: Segment<'p>,
         (begin, fine): (&Moment, &Pass),
+        cycles_per_time: f64,
     ) -> Result<(), Leave> {
         let stops = fine.taken.iter().any(|taken| stop_reached(&self.plan.stop, &taken.row).is_some());
         let again = stops || matches!(self.plan.output.every, Every::Steps(_)) && !self.plan.output.fields.is_empty();
         if again {
             going.stepper.return_to(system, begin);
+            going.again = fine.taken.iter().map(Taken::again).collect();
+            let until = fine.taken.last().map_or(going.place.at, |taken| taken.reach.until);
+            return self.once_more(system, going, segment, until, cycles_per_time);
         }
         let last = fine.taken.len().saturating_sub(1);
         for (k, taken) in fine.taken.iter().enumerate() {
-            if again {
-                let repeated = going.stepper.advance(system, segment, taken.reach);
-                repeated.map_err(|source| failed(&segment, taken.reach.number - 1, taken.reach.start, source))?;
-            }
             going.clock = taken.clock;
             going.tell(system, &segment, &taken.accepted, taken.row, k == last);
             (going.place.at, going.place.number) = (taken.reach.until, taken.reach.number);
-            // A wish to end waits for the end of the stretch, where it can be gone on from.
-            if again && matches!(going.leaving, Some(Leave::Stopped(_))) {
+        }
+        Ok(())
+    }
+
+    /// Goes through the steps in `going.again`, of a pass that stands, and tells of them. A run that ends on the way leaves
+    /// the others there, to be gone on with; where an event of the scene lies between them by now, they are forgotten.
+    pub(super) fn once_more(
+        &self,
+        system: &mut System<'p>,
+        going: &mut Going<'_>,
+        segment: Segment<'p>,
+        until: f64,
+        cycles_per_time: f64,
+    ) -> Result<(), Leave> {
+        let steps = std::mem::take(&mut going.again);
+        if steps.last().is_none_or(|last| last.until > until) {
+            return Ok(());
+        }
+        for (k, step) in steps.iter().enumerate() {
+            let (start, number) = (going.place.at, going.place.number);
+            let reach = Reach { start, until: step.until, number: number + 1 };
+            let mut accepted = going
+                .stepper
+                .advance(system, segment, reach)
+                .map_err(|source| failed(&segment, number, start, source))?;
+            accepted.rejected = step.rejected;
+            going.moved(&segment, step.length, step.until, cycles_per_time);
+            let dt = step.length * segment.scale;
+            let row = rows::row(system, &going.stepper.wear, &going.clock, dt, segment.scale);
+            going.tell(system, &segment, &accepted, row, k + 1 == steps.len());
+            (going.place.at, going.place.number) = (step.until, number + 1);
+            if matches!(going.leaving, Some(Leave::Stopped(_) | Leave::Interrupted)) {
+                going.again = steps[k + 1..].to_vec();
                 break;
             }
         }
         Ok(())
+    }
+}
+
+impl Taken {
+    fn again(&self) -> Again {
+        Again { until: self.reach.until, length: self.accepted.length, rejected: self.accepted.rejected }
     }
 }
 

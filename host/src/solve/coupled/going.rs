@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::controlled::Control;
+use super::controlled::{Again, Control};
 use super::limit::Watch;
 use super::place::Place;
 use super::rows::{self, Clock};
@@ -26,6 +26,8 @@ pub(super) struct Going<'o> {
     pub(super) rejected: u64,
     pub(super) replaced: u64,
     pub(super) control: Control,
+    /// Steps of a pass that stands which have not been gone through again yet.
+    pub(super) again: Vec<Again>,
     pub(super) longest: f64,
     pub(super) warnings: Vec<String>,
     pub(super) observer: &'o mut (dyn Observer + Send),
@@ -72,6 +74,7 @@ impl<'o> Going<'o> {
             rejected: 0,
             replaced: 0,
             control: Control::new(),
+            again: Vec::new(),
             longest: 0.0,
             warnings: Vec::new(),
             observer,

@@ -13,6 +13,7 @@ mod ladder;
 mod law_points;
 mod limit;
 mod loading;
+mod neighbours;
 mod newton;
 mod place;
 mod prepared;

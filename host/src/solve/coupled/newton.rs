@@ -112,8 +112,7 @@ impl System<'_> {
             residual = self.misfit(per_increment, diagonal, line, point);
             if residual <= tolerance && inner <= tolerance {
                 if self.smoothed() {
-                    // The neighbours of the contact were in it for the sake of the answer; they do not wear.
-                    return self.rate(driven, rate);
+                    return self.rate_with_neighbours(driven, weight, base, rate);
                 }
                 self.spread(rate);
                 return Ok(Reply::Good);

@@ -1,5 +1,6 @@
 //! Where a run is in its loading, and what it saves there to go on from.
 
+use super::controlled::Again;
 use super::going::Going;
 use super::limit::Watch;
 use super::rows::Clock;
@@ -130,6 +131,14 @@ impl Place {
     }
 }
 
+/// What is saved of the steps that are still to be gone through again.
+type OfAgain = fn(&Again) -> f64;
+const AGAIN: [(&str, OfAgain); 3] = [
+    ("again.until", |step| step.until),
+    ("again.length", |step| step.length),
+    ("again.rejected", |step| step.rejected as f64),
+];
+
 /// The ways in which the bodies can be pressed together, as numbers.
 fn control_numbers(control: Option<Pressing>) -> (f64, f64) {
     match control {
@@ -201,6 +210,9 @@ impl Going<'_> {
             ("fresh", flag(self.stepper.fresh)),
         ];
         numbers.into_iter().for_each(|(name, value)| to.set(name, value));
+        for (name, of) in AGAIN {
+            to.put(name, self.again.iter().map(of).collect::<Vec<f64>>());
+        }
         to.put("wear", &self.stepper.wear[..]);
         to.put("pressure", &system.pressure[..]);
         to.put("start_pressure", &self.start_pressure[..]);
@@ -248,6 +260,11 @@ impl Going<'_> {
         self.control.error = from.number("control.error")?;
         self.control.sum_error = from.number("control.sum_error")?;
         self.control.pressure_error = Some(from.number("control.pressure_error")?).filter(|error| *error >= 0.0);
+        let [until, length, rejected] = AGAIN.map(|(name, _)| from.array(name));
+        let (until, length, rejected) = (until?, length?, rejected?);
+        self.again = std::iter::zip(until, std::iter::zip(length, rejected))
+            .map(|(until, (length, rejected))| Again { until: *until, length: *length, rejected: *rejected as u64 })
+            .collect();
         self.longest = from.number("longest")?;
         self.snapshot_told = from.number("snapshot_told")? > 0.0;
         self.pressed = control_of(from.number("pressed")?, from.number("pressed.by")?);

@@ -1,6 +1,6 @@
 //! What a run holds before it goes: the grid and its memory, the model, the velocities of a load step.
 
-use super::run::Coupled;
+use super::run::{Coupled, SHARED};
 use super::segment::Segment;
 use super::system::{Room, Substep, System, Work};
 use crate::contact::foundation::Foundation;
@@ -11,6 +11,7 @@ use crate::integrator::{Formula, Stages};
 use crate::law::Field;
 use crate::plan::{Elastic, LoadStep};
 use crate::record::{self, MemoryLine};
+use crate::scene::Basis;
 use crate::solve::SolveError;
 
 impl<'p> Coupled<'p> {
@@ -49,6 +50,20 @@ impl<'p> Coupled<'p> {
         }
         if self.distances() {
             lines.push(line("sliding distances and velocities", 16 * cells));
+        }
+        if self.plan.tolerance.is_some() {
+            let memory = states + usize::from(self.distances());
+            lines.push(line("start and ends of the passes that are compared", 8 * cells * (7 + memory)));
+        }
+        if let Elastic::HalfSpace { modulus, periodic, datum } = self.solved.elastic {
+            let threads = if cells < SHARED { 1 } else { std::thread::available_parallelism().map_or(1, usize::from) };
+            let boundary = if periodic { Boundary::Periodic } else { Boundary::Free };
+            let model = HalfSpace::new(self.solved.cells, modulus, boundary, datum, threads);
+            let varies = self.distances() || self.solved.scheme.slope != crate::plan::Slope::Proportional;
+            let smoothed = self.plan.material.basis == Basis::NodalStress;
+            let [transforms, arrays] = model.most_bytes(varies, smoothed);
+            lines.push(line("half-space: transforms over the grid and a window, at most", transforms));
+            lines.push(line("half-space: arrays of a contact solve, at most", arrays));
         }
         lines
     }

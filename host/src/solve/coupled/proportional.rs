@@ -56,7 +56,7 @@ impl System<'_> {
             let b = self.law.increment[0] * factor;
             let tolerance = self.stage_tolerance(b * probe);
             self.solve(driven.control, Diagonal::Uniform(b), smoothed, tolerance)?;
-            return self.judged(driven, b_of(&Diagonal::Uniform(b)), weight, rate);
+            return self.judged(driven, b_of(&Diagonal::Uniform(b)), (weight, base), rate);
         }
         let mut asked = vec![false; self.pressure.len()];
         self.mark_near(&mut asked);
@@ -98,7 +98,7 @@ impl System<'_> {
                 asked.fill(true);
             }
         }
-        let reply = self.judged(driven, b_of(&Diagonal::PerPoint(&diagonal)), weight, rate);
+        let reply = self.judged(driven, b_of(&Diagonal::PerPoint(&diagonal)), (weight, base), rate);
         self.room.diagonal = diagonal;
         reply
     }
@@ -139,16 +139,23 @@ impl System<'_> {
         &mut self,
         driven: Driven,
         b: impl Fn(usize) -> f64,
-        weight: f64,
+        (weight, base): (f64, &[f64]),
         rate: &mut [f64],
     ) -> Result<Reply, PointError> {
-        if let cut @ Reply::Cut(_) = self.rate(driven, rate)? {
+        let smoothed = self.smoothed();
+        let reply = match smoothed {
+            true => self.rate_with_neighbours(driven, weight, base, rate)?,
+            false => self.rate(driven, rate)?,
+        };
+        if let cut @ Reply::Cut(_) = reply {
             return Ok(cut);
         }
-        let smoothed = self.smoothed();
         let per_rate = weight / self.substep.dt;
         for (i, cell) in self.room.cells.iter().enumerate() {
             let at = *cell as usize;
+            if smoothed && self.pressure[at] == 0.0 {
+                continue;
+            }
             let pressure = if smoothed { self.room.traction[at] } else { self.pressure[at] };
             let (found, expected) = (self.law.increment[i] * per_rate, b(at) * pressure);
             if (found - expected).abs() > ROUNDING * expected.abs().max(found.abs()) && found.abs() > f64::MIN_POSITIVE

@@ -7,6 +7,7 @@ use super::run::Coupled;
 use crate::plan::ReferencePlan;
 use crate::record::{End, Observer, Record};
 use crate::reference::NamedReference;
+use crate::scene::ScalingKind;
 use crate::solve::reference::{compare, from_file, relative_l2};
 use crate::solve::{ErrorNorm, Expected, ReferenceError, SolveError};
 
@@ -14,6 +15,9 @@ use crate::solve::{ErrorNorm, Expected, ReferenceError, SolveError};
 const REFINEMENT: f64 = 1.0 / 32.0;
 /// How many more fixed substeps a refined run takes.
 const MORE_SUBSTEPS: u64 = 16;
+/// Most cells times substeps of an unscaled run that a scaled one is compared with: about ten seconds of a linear law on a
+/// half-space.
+const MOST_UNSCALED: f64 = 1e8;
 
 /// What a run should have come to.
 struct Wanted {
@@ -48,7 +52,7 @@ impl Coupled<'_> {
     ) -> Result<Option<ErrorNorm>, SolveError> {
         let Some(wanted) = &self.plan.reference else { return Ok(None) };
         let wanted = match wanted {
-            ReferencePlan::Refined => self.refined(observer)?,
+            ReferencePlan::Refined => self.refined(record, observer)?,
             ReferencePlan::File(path) => self.on_file(path)?,
             ReferencePlan::Exact(named) => match self.exactly(*named, record)? {
                 Ok(wanted) => wanted,
@@ -125,23 +129,51 @@ impl Coupled<'_> {
         error
     }
 
-    /// The same scene in many more steps, and to a tighter contact tolerance.
-    fn refined(&self, observer: &mut (dyn Observer + Send)) -> Result<Wanted, SolveError> {
+    /// The same scene in many more steps, to a tighter contact tolerance, and without scaling where that can be paid for.
+    fn refined(&self, record: &Record<SolveError>, observer: &mut (dyn Observer + Send)) -> Result<Wanted, SolveError> {
         let mut plan = self.plan.clone();
         let mut solved = self.solved.clone();
         plan.output.fields.clear();
-        plan.substeps = plan.substeps.map(|substeps| substeps.saturating_mul(MORE_SUBSTEPS));
+        let scaled = plan.material.scaling.kind != ScalingKind::None;
+        let finer = if scaled { self.affordable(record) } else { Some(MORE_SUBSTEPS) };
+        if finer.is_some() {
+            plan.material.scaling.kind = ScalingKind::None;
+        }
+        plan.substeps = plan.substeps.map(|substeps| substeps.saturating_mul(finer.unwrap_or(MORE_SUBSTEPS)));
         plan.tolerance = plan.tolerance.map(|tolerance| tolerance * REFINEMENT);
         solved.contact_tolerance = (0.1 * solved.contact_tolerance).max(1e-12);
+        let name = match (scaled, finer, plan.tolerance) {
+            (false, ..) => "the same scene in many more steps".to_owned(),
+            (true, Some(_), Some(_)) => "the same scene without scaling, to a tighter tolerance".to_owned(),
+            (true, Some(1), None) => "the same scene without scaling, in the same substeps".to_owned(),
+            (true, Some(finer), None) => format!("the same scene without scaling, in {finer} times as many substeps"),
+            (true, None, _) => {
+                "the same scene in many more steps, scaled alike: the error of the scaling is not in it".to_owned()
+            }
+        };
         let finer = Coupled::prepare(&plan, &solved, self.evaluator)?.go(0, observer, None)?;
         match finer.end {
             End::Failed(error) => Err(error),
             End::Interrupted => Err(SolveError::Interrupted),
             _ => Ok(Wanted {
                 answer: Answer { wear: finer.wear, pressure: finer.pressure, ..Answer::default() },
-                name: "the same scene in many more steps".to_owned(),
+                name,
                 pressed: true,
             }),
+        }
+    }
+
+    /// How many times as many substeps an unscaled run may take, from what a scaled one came to; `None`: not even as many.
+    /// A run to a tolerance is counted with as many more as its own tighter one takes.
+    fn affordable(&self, record: &Record<SolveError>) -> Option<u64> {
+        let last = record.history.last()?;
+        let stretched = if last.simulated_time > 0.0 { last.time / last.simulated_time } else { 1.0 };
+        let tried = (record.cost.steps + record.cost.rejected_steps) as f64;
+        let unscaled = stretched * tried * self.points() as f64;
+        let fits = |times: &u64| unscaled * *times as f64 <= MOST_UNSCALED;
+        match self.plan.tolerance {
+            Some(_) => Some(MORE_SUBSTEPS).filter(fits),
+            None => [16, 8, 4, 2, 1].into_iter().find(fits),
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::scene::ScalingKind;
 use crate::solve::{SolveError, contents};
 
 /// Cells below which more threads than one cost more than they give.
-const SHARED: usize = 512 * 512;
+pub(super) const SHARED: usize = 512 * 512;
 
 /// A plan with its surface made and its velocities read, ready to go.
 pub(in crate::solve) struct Coupled<'p> {
@@ -168,10 +168,9 @@ impl<'p> Coupled<'p> {
         for until in segment.cuts(self.plan) {
             let idle = Stepper::is_idle(system, &segment);
             if self.plan.tolerance.is_some() && !idle && going.place.at < until {
-                let pressed = (scaling == ScalingKind::Cycle).then(|| going.stepper.moment(system));
-                self.controlled(system, going, segment, until, cycles_per_time)?;
-                if let Some(before) = pressed {
-                    going.place.change += self.change(system, before.pressed(), &segment, going.place.at)?;
+                self.once_more(system, going, segment, until, cycles_per_time)?;
+                if going.leaving.is_none() && going.place.at < until {
+                    self.controlled(system, going, segment, until, cycles_per_time)?;
                 }
                 going.settle(system, self.evaluator)?;
             }
@@ -309,7 +308,7 @@ impl<'p> Coupled<'p> {
     }
 
     /// The relative change of the pressure that wear has made since the surface was worn by `wear` and carried `pressure`.
-    fn change(
+    pub(super) fn change(
         &self,
         system: &mut System<'p>,
         (wear, pressure): (&[f64], &[f64]),

@@ -92,8 +92,8 @@ impl Segment<'_> {
         events
     }
 
-    /// Simulated times inside at which something bends: table points, a velocity that changes sign, output times, the
-    /// ends of fixed substeps; ascending, the segment's end last.
+    /// Simulated times inside at which something bends: table points in time and in a temperature that ramps, a velocity
+    /// that changes sign, output times, the ends of fixed substeps; ascending, the segment's end last.
     pub(super) fn cuts(&self, plan: &Plan) -> Vec<f64> {
         let mut cuts = Vec::new();
         let simulated = |represented: f64| self.start + (represented - self.represented) / self.scale;
@@ -105,6 +105,13 @@ impl Segment<'_> {
             && velocity.from * velocity.to < 0.0
         {
             cuts.push(self.start + self.length * velocity.from / (velocity.from - velocity.to));
+        }
+        if let Some(temperature) = self.step.temperature.filter(|temperature| temperature.from != temperature.to) {
+            let passed = plan.material.constants.break_temperatures().iter();
+            let part = |level: &f64| (level - temperature.from) / (temperature.to - temperature.from);
+            cuts.extend(
+                passed.map(part).filter(|part| (0.0..1.0).contains(part)).map(|part| self.start + self.length * part),
+            );
         }
         if let Some(substeps) = plan.substeps {
             cuts.extend((1..substeps).map(|k| self.start + self.length * (k as f64 / substeps as f64)));

@@ -215,16 +215,10 @@ impl Stepper {
             true => self.rate_step(system, span)?,
             false => self.whole_step(system, span)?,
         };
-        let tried = match tried {
-            Tried::Taken => self.guarded(system, span, accepted)?,
-            cut @ Tried::Cut(_) => cut,
-        };
-        let implicit = system.solved.scheme.formula != Formula::ExplicitEuler && !system.is_post();
-        if tried == Tried::Taken && implicit && system.smoothed() {
-            // The neighbours of the contact took part in the stage as if they wore: the contact of what is worn is another.
-            system.press(system.driven(span.start + span.length).control, &self.end)?;
+        match tried {
+            Tried::Taken => self.guarded(system, span, accepted),
+            cut @ Tried::Cut(_) => Ok(cut),
         }
-        Ok(tried)
     }
 
     /// One step of a law that is a rate.

@@ -95,6 +95,7 @@ pub(super) struct Room {
     pub(super) compact_traction: Vec<f64>,
     pub(super) expected: Vec<f64>,
     pub(super) law_gap: Vec<f64>,
+    pub(super) displaced: Vec<f64>,
 }
 
 impl System<'_> {
@@ -330,6 +331,15 @@ impl System<'_> {
 
     /// The rate under the pressure of the last solve.
     pub(super) fn rate(&mut self, driven: Driven, rate: &mut [f64]) -> Result<Reply, PointError> {
+        let reply = self.own_rate(driven, rate)?;
+        if reply == Reply::Good && self.plan.material.average {
+            self.average(rate);
+        }
+        Ok(reply)
+    }
+
+    /// The same before any averaging.
+    pub(super) fn own_rate(&mut self, driven: Driven, rate: &mut [f64]) -> Result<Reply, PointError> {
         let open = self.evaluator.descriptor().wants_open_points();
         Self::list(&mut self.room.cells, &self.pressure, open);
         let pressure = std::mem::take(&mut self.pressure);
@@ -338,9 +348,6 @@ impl System<'_> {
         let reply = reply?;
         if reply == Reply::Good {
             self.spread(rate);
-            if self.plan.material.average {
-                self.average(rate);
-            }
         }
         Ok(reply)
     }

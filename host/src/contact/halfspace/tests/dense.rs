@@ -1,6 +1,7 @@
 //! Random small problems against a dense solver that changes one cell at a time.
 
 use super::*;
+use crate::contact::corners_and_back;
 
 /// Solves a square system by elimination with the largest pivot of each column.
 fn eliminate(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
@@ -51,7 +52,7 @@ impl Dense {
             let (mut one, mut acting) = (vec![0.0; count], vec![0.0; count]);
             one[from] = 1.0;
             if problem.smoothed {
-                local::smoothed(self.cells.counts, [self.boundary; 2], &one, &mut acting)
+                corners_and_back(&self.cells, self.boundary == Boundary::Periodic, &one, &mut acting)
             } else {
                 acting = one
             }
