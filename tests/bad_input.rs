@@ -1,7 +1,6 @@
 //! Bad input of every kind, through the built program: exit code, one telling sentence, nothing half written.
 #![cfg(target_os = "linux")]
 
-#[allow(dead_code)] // the laws are run by the program here, never by the test
 #[path = "support/c_laws.rs"]
 mod c_laws;
 #[path = "support/bad_runs.rs"]

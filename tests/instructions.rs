@@ -76,7 +76,7 @@ fn a_set_that_is_none_is_refused_and_a_run_that_goes_on_under_another_says_so() 
         println!("NOT RUN: going on under other instructions: this processor has one set");
         return;
     }
-    let other = under(here.path(), best, &more);
+    let other = under(here.path(), best, &["run", "scene.toml", "--out", "out", "--resume"]);
     assert_eq!(other.code, 0, "{}", other.stderr);
     let said = format!("written with baseline instructions, the run goes on with {best}");
     assert!(other.stderr.contains(&said), "{}", other.stderr);

@@ -6,7 +6,7 @@ mod sources;
 use std::path::Path;
 
 /// Each top-level module and the others of the crate that it may name.
-const MAY_USE: [(&str, &[&str]); 19] = [
+const MAY_USE: [(&str, &[&str]); 21] = [
     ("scene", &[]),
     ("reference", &[]),
     ("splitmix", &[]),

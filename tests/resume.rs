@@ -355,6 +355,8 @@ fn a_large_prescribed_run_that_fails_leaves_the_last_checkpoint_that_it_wrote() 
         assert!(failed.arrays["wear"] == three.arrays["wear"] && failed.arrays["wear"].len() == points, "{name}");
         let again = fails(here.path(), &["run", "fails.toml", "--out", "out", "--resume"], 3, "law");
         assert_eq!(first, again);
-        ["out", "done"].map(|out| fs::remove_dir_all(here.path().join(out)).unwrap());
+        for out in ["out", "done"] {
+            fs::remove_dir_all(here.path().join(out)).unwrap();
+        }
     }
 }

@@ -167,7 +167,10 @@ fn a_yardstick_states_at_least_a_third_of_its_error() {
         let continuum =
             ["winkler_parabola", "line_scar", "ball_on_flat", "stick_limit"].iter().any(|n| name.starts_with(n));
         for (norm, off) in measured {
-            let own = number(&document["yardstick"]["stated"][norm]);
+            // A limit that one step reaches has no second run to be compared with: then nothing is stated of steps.
+            let own = document["yardstick"]["stated"][norm].as_f64();
+            assert!(own.is_some() || name == "stick_limit.toml", "{name}, {norm}: nothing is stated");
+            let own = own.unwrap_or(0.0);
             let grid = document["grid"]["estimated"][norm].as_f64().filter(|_| continuum).unwrap_or(0.0);
             assert!(3.0 * (own + grid) >= number(off), "{name}, {norm}: stated {own:e} and {grid:e}, off by {off}");
         }

@@ -54,9 +54,9 @@ pub(super) fn text(console: &Console, study: &StudyRecord, out: &Path) -> String
 }
 
 const LEGEND: &str = "
-  ms, cpu: least wall and processor time; +%: largest over least wall time; ': run once, not warmed up
+  ms, cpu: least wall and processor time; +%: largest over least wall time; ': run only once
   solves, pairs, calls: contact solves, pairs of transforms, calls of the law
-  wear, max: wear profile, L2 and largest; press.: L2 in the contact; centre: depth there; all relative
+  wear, max: wear profile, L2 and largest; press.: L2 in the contact; centre: depth; all relative
   X: unstable; *: on the Pareto front; ~: less than three times the yardstick's own error
 ";
 

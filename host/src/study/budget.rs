@@ -88,7 +88,7 @@ mod tests {
         assert_eq!(budget.timed_runs(1e-3), Some(5));
         assert_eq!(budget.timed_runs(0.25), Some(3));
         assert_eq!(budget.timed_runs(0.4), None);
-        assert_eq!((budget.whole_case_s(0.1), budget.whole_case_s(7.0)), (0.6, 7.0));
+        assert_eq!((budget.whole_case_s(0.125), budget.whole_case_s(7.0)), (0.75, 7.0));
         assert_eq!(Budget::begin(Duration::from_secs(40), 1).timed_runs(0.4), Some(1));
         assert_eq!(Budget::begin(Duration::from_secs(40), 1).timed_runs(0.6), None);
         assert!(budget.left_s() > 39.0 && budget.spent_s() < 1.0);

@@ -170,6 +170,6 @@ mod tests {
             (seconds(2e-5), seconds(0.0123), seconds(2.5)),
             ("20 us".into(), "12.300 ms".into(), "2.500 s".into())
         );
-        assert_eq!((times(3.14159), times(314.159)), ("3.1".to_owned(), "314".to_owned()));
+        assert_eq!((times(3.16), times(316.2)), ("3.2".to_owned(), "316".to_owned()));
     }
 }

@@ -100,16 +100,27 @@ impl State {
 fn soft(patch: &Patch<'_>, pressure: &[f64], u: &[f64], approach: f64) -> f64 {
     let own = patch.kernel.mode([1, 0], [2, 1]);
     let parts = each_chunk(patch.threads, pressure.len(), |range| {
-        let (mut squares, mut count) = (0.0, 0.0);
+        let (mut squares, mut count, mut largest) = (0.0, 0.0, 0.0_f64);
         for cell in range.filter(|cell| pressure[*cell] > 0.0) {
             let local = patch.local(cell);
-            squares += (local / (local + own) * (patch.gap[cell] + u[cell] - approach)).powi(2);
+            let open = local / (local + own) * (patch.gap[cell] + u[cell] - approach);
+            squares += open * open;
             count += 1.0;
+            largest = largest.max(open.abs());
         }
-        (squares, count)
+        (squares, count, largest)
     });
-    let (squares, count) = parts.into_iter().fold((0.0, 0.0_f64), |a, b| (a.0 + b.0, a.1 + b.1));
-    if count > 0.0 { (squares / count).sqrt() } else { 0.0 }
+    let all = parts.into_iter().fold((0.0, 0.0, 0.0_f64), |a, b| (a.0 + b.0, a.1 + b.1, a.2.max(b.2)));
+    root_mean(all)
+}
+
+/// The root of a mean of squares from their sum and count; the largest of what was squared where no double holds the sum.
+pub fn root_mean((squares, count, largest): (f64, f64, f64)) -> f64 {
+    match count > 0.0 {
+        false => 0.0,
+        true if squares.is_finite() => (squares / count).sqrt(),
+        true => largest,
+    }
 }
 
 /// The least of the sums of two arrays.

@@ -209,7 +209,7 @@ impl System<'_> {
             return 0.0;
         }
         let (mut sum, mut weight, mut deepest) = (0.0, 0.0, 0.0_f64);
-        let (mut squares, mut count, own) = (0.0, 0.0, self.own_compliance());
+        let (mut squares, mut count, mut largest_off, own) = (0.0, 0.0, 0.0_f64, self.own_compliance());
         let mut listed = self.room.cells.iter().enumerate().peekable();
         for cell in 0..point.len() {
             let found = listed.next_if(|(_, at)| **at as usize == cell);
@@ -222,8 +222,10 @@ impl System<'_> {
             // An open cell is misjudged only by what its line wears at no pressure.
             let line = line[cell] + diagonal[cell] * driving;
             if driving > 0.0 {
-                squares += ((law - line) / (1.0 + own / diagonal[cell])).powi(2);
+                let off = (law - line) / (1.0 + own / diagonal[cell]);
+                squares += off * off;
                 count += 1.0_f64;
+                largest_off = largest_off.max(off.abs());
             }
             let share = if pressure > 0.0 { pressure } else { point[cell] } / largest;
             sum += share * (law - line).abs();
@@ -232,7 +234,13 @@ impl System<'_> {
             weight += share;
             deepest = deepest.max(line - law);
         }
-        let soft = if count > 0.0 { (squares / count).sqrt() / SOFT } else { 0.0 };
+        let mean = match count > 0.0 {
+            false => 0.0,
+            true if squares.is_finite() => (squares / count).sqrt(),
+            // No double holds the squares.
+            true => largest_off,
+        };
+        let soft = mean / SOFT;
         (if weight > 0.0 { sum / weight } else { 0.0 } + deepest).max(soft) / self.gap_scale
     }
 
