@@ -113,12 +113,13 @@ fn killed_and_resumed(here: &Path, words: &[&[&str]; 2], out: &str, kills: u32, 
         let words = [words[kill as usize % 2], &["--out", out, "--resume", "-q"]].concat();
         let before = stamp();
         from_checkpoint += u32::from(before.is_some());
-        let mut child = wearlaw(here, &words).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+        let mut child = wearlaw(here, &words).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
         // Every other time it has to get somewhere first.
         let ended = kill % 2 == 1 && wait(&mut child, Duration::from_secs(20), || stamp() != before);
         let ended = ended || wait(&mut child, Duration::from_secs_f64(0.03 * seeded.next()), || false);
         if ended {
-            assert!(child.wait().expect("it ended").success());
+            let ended = child.wait_with_output().expect("it ended");
+            assert!(ended.status.success(), "{}: {}", ended.status, String::from_utf8_lossy(&ended.stderr));
             // It was too fast: from the start again.
             fs::remove_dir_all(here.join(out)).expect("results");
             continue;
