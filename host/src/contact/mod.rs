@@ -12,6 +12,7 @@ mod instructions;
 mod npy;
 pub mod prescribed;
 mod problem;
+mod root_mean;
 pub mod surface;
 mod traction;
 
@@ -20,5 +21,6 @@ pub use error::ContactError;
 pub use instructions::{INSTRUCTIONS_VARIABLE, Instructions, InstructionsError};
 pub use npy::ArrayFault;
 pub use problem::{ContactModel, Control, Diagonal, Problem, Solution};
+pub(crate) use root_mean::RootMean;
 pub(crate) use traction::averaged_twice;
 pub use traction::{corners_and_back, nodal_traction};

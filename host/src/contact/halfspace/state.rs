@@ -1,5 +1,6 @@
 //! What pressures amount to, and the ways from one to better ones that need no transform.
 
+use super::super::RootMean;
 use super::descend::NEAR;
 use super::passes::{change, each_chunk, sum};
 use super::patch::Patch;
@@ -100,27 +101,14 @@ impl State {
 fn soft(patch: &Patch<'_>, pressure: &[f64], u: &[f64], approach: f64) -> f64 {
     let own = patch.kernel.mode([1, 0], [2, 1]);
     let parts = each_chunk(patch.threads, pressure.len(), |range| {
-        let (mut squares, mut count, mut largest) = (0.0, 0.0, 0.0_f64);
+        let mut open = RootMean::default();
         for cell in range.filter(|cell| pressure[*cell] > 0.0) {
             let local = patch.local(cell);
-            let open = local / (local + own) * (patch.gap[cell] + u[cell] - approach);
-            squares += open * open;
-            count += 1.0;
-            largest = largest.max(open.abs());
+            open.add(local / (local + own) * (patch.gap[cell] + u[cell] - approach));
         }
-        (squares, count, largest)
+        open
     });
-    let all = parts.into_iter().fold((0.0, 0.0, 0.0_f64), |a, b| (a.0 + b.0, a.1 + b.1, a.2.max(b.2)));
-    root_mean(all)
-}
-
-/// The root of a mean of squares from their sum and count; the largest of what was squared where no double holds the sum.
-pub fn root_mean((squares, count, largest): (f64, f64, f64)) -> f64 {
-    match count > 0.0 {
-        false => 0.0,
-        true if squares.is_finite() => (squares / count).sqrt(),
-        true => largest,
-    }
+    parts.into_iter().fold(RootMean::default(), RootMean::with).value()
 }
 
 /// The least of the sums of two arrays.

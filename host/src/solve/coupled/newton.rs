@@ -2,7 +2,7 @@
 
 use super::segment::Driven;
 use super::system::{System, Tractions};
-use crate::contact::{Control, Diagonal};
+use crate::contact::{Control, Diagonal, RootMean};
 use crate::integrator::Reply;
 use crate::plan::{Elastic, Slope};
 use crate::solve::PointError;
@@ -209,7 +209,7 @@ impl System<'_> {
             return 0.0;
         }
         let (mut sum, mut weight, mut deepest) = (0.0, 0.0, 0.0_f64);
-        let (mut squares, mut count, mut largest_off, own) = (0.0, 0.0, 0.0_f64, self.own_compliance());
+        let (mut off, own) = (RootMean::default(), self.own_compliance());
         let mut listed = self.room.cells.iter().enumerate().peekable();
         for cell in 0..point.len() {
             let found = listed.next_if(|(_, at)| **at as usize == cell);
@@ -222,10 +222,7 @@ impl System<'_> {
             // An open cell is misjudged only by what its line wears at no pressure.
             let line = line[cell] + diagonal[cell] * driving;
             if driving > 0.0 {
-                let off = (law - line) / (1.0 + own / diagonal[cell]);
-                squares += off * off;
-                count += 1.0_f64;
-                largest_off = largest_off.max(off.abs());
+                off.add((law - line) / (1.0 + own / diagonal[cell]));
             }
             let share = if pressure > 0.0 { pressure } else { point[cell] } / largest;
             sum += share * (law - line).abs();
@@ -234,13 +231,7 @@ impl System<'_> {
             weight += share;
             deepest = deepest.max(line - law);
         }
-        let mean = match count > 0.0 {
-            false => 0.0,
-            true if squares.is_finite() => (squares / count).sqrt(),
-            // No double holds the squares.
-            true => largest_off,
-        };
-        let soft = mean / SOFT;
+        let soft = off.value() / SOFT;
         (if weight > 0.0 { sum / weight } else { 0.0 } + deepest).max(soft) / self.gap_scale
     }
 
