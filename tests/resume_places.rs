@@ -12,7 +12,7 @@ use laws::RunningIn;
 use solved::{archard, memory};
 use wearlaw::law::Evaluator;
 use wearlaw::plan::Plan;
-use wearlaw::record::{Checkpoint, End, Event, Nobody, Observer, Record, Stability, Wish};
+use wearlaw::record::{Checkpoint, End, Event, Nobody, Observer, Record, Wish};
 use wearlaw::scene::Scene;
 use wearlaw::solve::{Run, SolveError};
 
@@ -52,8 +52,7 @@ fn bits(record: &Record<SolveError>) -> String {
         record.largest_step,
         record.warnings,
         record.profile,
-        // How long the measure took is a time.
-        Stability { measuring_s: 0.0, ..record.stability.clone() },
+        record.stability,
         record.end,
         record.cost.steps,
     )

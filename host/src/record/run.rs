@@ -13,6 +13,9 @@ pub struct Cost {
     pub law_time_s: f64,
     /// Time in contact solves; s.
     pub contact_time_s: f64,
+    /// Time that measuring the stability limit of explicit steps took; s.
+    #[serde(default)]
+    pub limit_time_s: f64,
     /// Accepted steps.
     pub steps: u64,
     /// Rejected panels and substeps.
@@ -60,8 +63,6 @@ pub struct Stability {
     pub stiffness: Option<f64>,
     /// Smallest of the largest stable explicit steps; time. `None`: not measured, or no limit.
     pub explicit_limit: Option<f64>,
-    /// Wall time that measuring the limit took; s.
-    pub measuring_s: f64,
     /// Whether explicit steps beyond the limit were taken.
     pub is_unstable: bool,
     /// In words.

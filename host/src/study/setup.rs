@@ -131,7 +131,7 @@ impl Setup<'_> {
         let (wall_s, processor_s) = (begin.elapsed().as_secs_f64(), processor::seconds() - processor);
         match record.end {
             End::Done | End::Stopped(_) => {
-                let limit_s = record.stability.measuring_s;
+                let limit_s = record.cost.limit_time_s;
                 // In wall seconds it is known; of the processors it has the same part.
                 let part = (1.0 - limit_s / wall_s).max(0.0);
                 let (wall_s, processor_s) = (part * wall_s, part * processor_s);

@@ -128,6 +128,7 @@ impl<'o> Going<'o> {
             run_time_s: spent.run_time_s + self.begin.elapsed().as_secs_f64(),
             law_time_s: spent.law_time_s + law.law_time.as_secs_f64(),
             contact_time_s: spent.contact_time_s + work.time.as_secs_f64(),
+            limit_time_s: spent.limit_time_s + self.watch.spent.as_secs_f64(),
             steps: self.steps,
             rejected_steps: self.rejected,
             law_calls: spent.law_calls + law.law_calls,

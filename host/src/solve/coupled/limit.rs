@@ -65,7 +65,7 @@ pub(super) struct Watch {
     cut: u64,
     beyond: u64,
     /// Time that measuring took; not in checkpoints, because nothing depends on it.
-    spent: std::time::Duration,
+    pub(super) spent: std::time::Duration,
 }
 
 impl System<'_> {
@@ -370,12 +370,6 @@ impl Watch {
             Formula::ExplicitEuler => format!("stable: every explicit step kept its limit, {text}{left_out}"),
             _ => "stable at any step: the method is implicit; `wearlaw stability` measures the stiffness".to_owned(),
         };
-        Stability {
-            stiffness: self.measured,
-            explicit_limit: limit,
-            measuring_s: self.spent.as_secs_f64(),
-            is_unstable: self.beyond > 0,
-            verdict,
-        }
+        Stability { stiffness: self.measured, explicit_limit: limit, is_unstable: self.beyond > 0, verdict }
     }
 }
