@@ -10,7 +10,9 @@ use serde::Serialize;
 
 use super::reference::relative_l2;
 use super::{ErrorNorm, SolveError};
+use crate::plan::Plan;
 use crate::record::{End, Estimated, Observer, Record};
+use crate::scene::ScalingKind;
 
 /// Order at which errors are taken to fall: below the formulas' own, because of moving edges.
 const ORDER: f64 = 0.75;
@@ -70,7 +72,7 @@ impl Estimate {
     }
 
     /// Puts both parts together; `grid` is `None` where there is none.
-    pub(super) fn new(begin: Instant, steps: Part, grid: Option<Part>) -> Estimate {
+    pub(super) fn new(plan: &Plan, begin: Instant, steps: Part, grid: Option<Part>) -> Estimate {
         let mut without = Vec::new();
         let mut known = |part: Part, what: &str| {
             part.unwrap_or_else(|why| {
@@ -79,14 +81,16 @@ impl Estimate {
             })
         };
         let steps = known(steps, "steps");
-        let total = grid.as_ref().map_or(steps, |_| Estimated::default());
         let (grid, total) = match grid {
-            None => (Estimated::default(), total),
+            None => (Estimated::default(), steps),
             Some(grid) => {
                 let grid = known(grid, "grid");
                 (grid, steps.plus(grid))
             }
         };
+        if plan.material.scaling.kind != ScalingKind::None {
+            without.push("what the scaling of wear increments costs".to_owned());
+        }
         Estimate { steps, grid, total, without, time_s: begin.elapsed().as_secs_f64() }
     }
 }

@@ -6,7 +6,6 @@ use super::run::Coupled;
 use crate::contact::Cells;
 use crate::plan::{Plan, SolvedPlan};
 use crate::record::Record;
-use crate::scene::ScalingKind;
 use crate::solve::SolveError;
 use crate::solve::estimate::{Estimate, Pair, Part, Watching, covers, finished, half};
 
@@ -64,11 +63,7 @@ impl Coupled<'_> {
             None => part(&mut || self.by_substeps(record, observer)),
         };
         let grid = part(&mut || self.by_cells(record, observer));
-        let mut estimate = Estimate::new(begin, steps, Some(grid));
-        if self.plan.material.scaling.kind != ScalingKind::None {
-            estimate.without.push("what the scaling of wear increments costs".to_owned());
-        }
-        estimate
+        Estimate::new(self.plan, begin, steps, Some(grid))
     }
 
     fn by_substeps(&self, record: &Record<SolveError>, observer: Watching<'_>) -> Part {

@@ -5,7 +5,6 @@ use std::time::Instant;
 use super::Prescribed;
 use crate::plan::Plan;
 use crate::record::{Estimated, Record};
-use crate::scene::ScalingKind;
 use crate::solve::SolveError;
 use crate::solve::estimate::{Estimate, Pair, Part, Watching, covers, finished, half};
 
@@ -17,11 +16,7 @@ impl Prescribed<'_> {
             Some(_) => Ok(record.estimated),
             None => covers(record).and_then(|()| self.by_substeps(record, observer)),
         };
-        let mut estimate = Estimate::new(begin, steps, None);
-        if self.plan.material.scaling.kind != ScalingKind::None {
-            estimate.without.push("what the scaling of wear increments costs".to_owned());
-        }
-        estimate
+        Estimate::new(self.plan, begin, steps, None)
     }
 
     fn by_substeps(&self, record: &Record<SolveError>, observer: Watching<'_>) -> Part {
