@@ -264,12 +264,7 @@ fn known_heads(law: &LawDescriptor) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::{Plugin, embedded};
-
-    fn archard() -> LawDescriptor {
-        let plugin = Plugin::from_entry(embedded::entry("archard").unwrap()).unwrap();
-        plugin.laws()[0].descriptor().clone()
-    }
+    use crate::sampling::archard;
 
     #[test]
     fn a_table_gives_calls_and_sets_of_constants() {

@@ -9,3 +9,11 @@ pub(crate) mod points;
 pub(crate) mod random;
 pub(crate) mod sample;
 pub(crate) mod ulps;
+
+/// The description of the law of the program, for tests.
+#[cfg(test)]
+pub(crate) fn archard() -> crate::law::LawDescriptor {
+    use crate::law::{Plugin, embedded};
+    let plugin = Plugin::from_entry(embedded::entry("archard").unwrap()).unwrap();
+    plugin.laws()[0].descriptor().clone()
+}

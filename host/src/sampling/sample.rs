@@ -208,12 +208,7 @@ pub(crate) fn across(normal: [f64; 3], random: &mut Random) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::{Plugin, embedded};
-
-    fn archard() -> LawDescriptor {
-        let plugin = Plugin::from_entry(embedded::entry("archard").unwrap()).unwrap();
-        plugin.laws()[0].descriptor().clone()
-    }
+    use crate::sampling::archard;
 
     #[test]
     fn values_keep_their_bounds() {
