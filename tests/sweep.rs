@@ -103,6 +103,21 @@ fn a_case_that_fails_is_a_row_with_its_error() {
 }
 
 #[test]
+fn a_case_beyond_the_bar_of_the_scene_falls_short_and_keeps_its_results() {
+    let here = folder();
+    write(here.path(), "scene.toml", &format!("{SCENE}[reference]\nkind = \"winkler-parabola\"\nbar = 1e-3\n"));
+    let said = run(here.path(), &["sweep", "scene.toml", "--vary", "integrator.substeps=2,400", "--json"]);
+    assert_eq!(said.code, 1, "{}", said.stderr);
+    let (head, rows) = table(&here.path().join("scene.sweep/cases.csv"));
+    let cell = |row: usize, name: &str| &rows[row][head.iter().position(|known| known == name).expect("a column")];
+    assert_eq!((cell(0, "ended").as_str(), cell(0, "exit_code").as_str()), ("done", "1"));
+    assert!(cell(0, "message").contains("above the bar") && !cell(0, "max_wear_depth").is_empty());
+    assert_eq!((cell(1, "exit_code").as_str(), cell(1, "message").as_str()), ("0", ""));
+    let error = |row: usize| cell(row, "error").parse::<f64>().expect("a number");
+    assert!(error(0) > 1e-3 && error(1) <= 1e-3, "{} {}", error(0), error(1));
+}
+
+#[test]
 fn a_law_that_crashes_in_a_process_of_its_own_ends_its_case_alone() {
     let here = folder();
     let law = "#include <stdlib.h>\n".to_owned()

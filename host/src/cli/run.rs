@@ -145,7 +145,7 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     if let Some(title) = replaced {
         console.note(&format!("{} held the results of `{title}`, which these replace", settings.out.display()));
     }
-    let missed = error.as_ref().zip(plan.bar).filter(|(error, bar)| error.value.is_nan() || error.value > *bar);
+    let missed = missed(&plan, error.as_ref());
     let (code, failure) = match record.end {
         End::Failed(error) => {
             let error = Error::from(error);
@@ -175,8 +175,8 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
     if record.stability.is_unstable {
         console.note(&record.stability.verdict);
     }
-    if let Some((error, bar)) = missed {
-        console.note(&format!("the error {:e} is above the bar of the scene, {bar:e} (`reference.bar`)", error.value));
+    if let Some(words) = missed {
+        console.note(&words);
     }
     match failure {
         Some(error) => {
@@ -284,6 +284,12 @@ fn summary(
         stopped: (report.ended != "done").then(|| report.ended.clone()),
         share: plan.share,
     }
+}
+
+/// What is to be said of an error above the bar of the scene; `None`: it is not, or there is no bar.
+pub(super) fn missed(plan: &Plan, error: Option<&ErrorNorm>) -> Option<String> {
+    let (error, bar) = error.zip(plan.bar).filter(|(error, bar)| error.value.is_nan() || error.value > *bar)?;
+    Some(format!("the error {:e} is above the bar of the scene, {bar:e} (`reference.bar`)", error.value))
 }
 
 /// The scene with its overrides, and its law.

@@ -15,7 +15,7 @@ use super::guard::caught;
 use super::interrupt::Interrupt;
 use super::opening::{self, OpenedLaw};
 use super::restart;
-use super::run::report;
+use super::run::{missed, report};
 use super::table::labelled;
 use super::unit_text::elapsed;
 use crate::error::Error;
@@ -24,7 +24,7 @@ use crate::output::sweep_folder;
 use crate::plan::Plan;
 use crate::record::{End, Event, Observer, Wish};
 use crate::scene::{Override, Scene};
-use crate::solve::{Estimate, Run};
+use crate::solve::{Estimate, Run, SolveError};
 use crate::sweep::{Case, Found, RESULTS, Row, Shard, Sweep, Vary, read_row, write_row, write_table};
 
 /// Failed cases that the summary names; all are in the table.
@@ -165,7 +165,8 @@ impl Work<'_> {
         let mut watch = Watch(self.interrupt);
         let record = run.go(1, &mut watch);
         let finished = matches!(record.end, End::Done | End::Stopped(_));
-        let error = if finished { run.error(&record, &mut watch)? } else { None };
+        // A reference that fails costs its error norm, not the results.
+        let compared = if finished { run.error(&record, &mut watch) } else { Ok(None) };
         let estimate = match plan.output.error_estimate {
             true => run.estimate(&record, &mut watch),
             false => Estimate::of_steps(&record),
@@ -173,31 +174,31 @@ impl Work<'_> {
         if self.interrupt.asked() {
             return Err(Error::Interrupted);
         }
-        let report = report(&scene, &plan, &law, self.shared.isolate, &record, (error.as_ref(), &estimate))?.document();
-        let known = error.as_ref().map(|error| error.value).or(report["error"]["value"].as_f64());
-        let missed = error.as_ref().zip(plan.bar).filter(|(error, bar)| error.value.is_nan() || error.value > *bar);
-        let (code, message) = match record.end {
-            End::Failed(error) => {
-                let error = Error::from(error);
-                (error.exit_code(), error.to_string())
-            }
-            _ if record.stability.is_unstable => (ExitCode::NumbersFailed, record.stability.verdict.clone()),
-            _ => match missed {
-                Some((error, bar)) => {
-                    let words = format!("the error {:e} is above the bar of the scene, {bar:e}", error.value);
-                    (ExitCode::FallsShort, words)
-                }
-                None => (ExitCode::Done, String::new()),
-            },
+        let (error, without) = match compared {
+            Ok(error) => (error, None),
+            Err(failure) => (None, Some(failure)),
         };
+        let report = report(&scene, &plan, &law, self.shared.isolate, &record, (error.as_ref(), &estimate))?.document();
         let found = Found {
-            ended: if code == ExitCode::Done { report["ended"].as_str().unwrap_or_default() } else { "early" }
-                .to_owned(),
+            ended: match record.end {
+                End::Failed(_) => "failed".to_owned(),
+                _ => report["ended"].as_str().unwrap_or_default().to_owned(),
+            },
             results: RESULTS.iter().map(|name| report["result"][*name].as_f64()).collect(),
-            error: known,
+            error: report["error"]["value"].as_f64(),
             reference: report["error"]["reference"].as_str().unwrap_or_default().to_owned(),
             steps: record.cost.steps,
             run_time_s: record.cost.run_time_s,
+        };
+        let failed = |error: SolveError| {
+            let error = Error::from(error);
+            (error.exit_code(), error.to_string())
+        };
+        let (code, message) = match (record.end, without, missed(&plan, error.as_ref())) {
+            (End::Failed(error), ..) | (_, Some(error), _) => failed(error),
+            _ if record.stability.is_unstable => (ExitCode::NumbersFailed, record.stability.verdict),
+            (_, _, Some(words)) => (ExitCode::FallsShort, words),
+            _ => (ExitCode::Done, String::new()),
         };
         let (number, values) = (case.number, case.values.clone());
         let exit_code = code.number();

@@ -17,7 +17,7 @@ const STYLE: &str = include_str!("html/style.css");
 
 /// A page while it is put together, from its top to its end.
 #[derive(Clone, Debug, Default)]
-pub struct Page {
+struct Page {
     title: String,
     body: String,
 }

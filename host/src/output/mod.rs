@@ -20,7 +20,7 @@ pub use checkpoint::{CHECKPOINT, EarlierFields, EarlierFile, Keeper, Stored, rea
 pub use csv::write_history;
 pub use error::OutputError;
 pub use fields::{FieldFormat, FieldSeries, write_fields};
-pub use html::{Page, RunPage, write_run_page};
+pub use html::{RunPage, write_run_page};
 pub use plot::{Figure, write_plot};
 pub use report::{LawReport, Report, StabilityReport};
 pub use study::{check_study_folder, write_study};

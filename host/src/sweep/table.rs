@@ -16,7 +16,7 @@ pub const RESULTS: [&str; 8] =
 /// What came of a case that could be run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Found {
-    /// How the run ended: "done", or why it ended early.
+    /// How the run ended: "done", "failed", or why it ended early.
     pub ended: String,
     /// The quantities of [`RESULTS`]; `None`: the scene cannot give it.
     pub results: Vec<Option<f64>>,
