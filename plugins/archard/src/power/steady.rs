@@ -13,6 +13,9 @@ const INFINITE: u32 = 0x7ff0_0000;
 const LANES: usize = 4;
 /// Bytes of that many points: a store that crosses a line of the cache takes twice as long.
 const LINE: usize = 32;
+/// Points that columns are asked for ahead of their use: the memory then goes on working across the ends of pages and
+/// batches, where a processor that guesses by itself begins anew. Of 32, 64, 128, 192, 256 and 512 this was the fastest.
+const AHEAD: usize = 128;
 /// K, H and dt outside `1 / WIDE ..= WIDE` are left to the general path: (K/H) dt and the steps to it stay normal.
 const WIDE: f64 = 1.0e60;
 /// Bits of a pressure (about 1e-100) that every such factor multiplies to a normal number, as do all above it. The lower
@@ -87,8 +90,8 @@ fn steady_avx2(p: &[f64], v: &[f64], k: f64, h: f64, dt: f64, out: &mut [f64]) -
     let size = _mm256_set1_pd(f64::from_bits(!(1 << 63)));
     let least = _mm256_set1_epi64x(LEAST as i64);
     let (mut most_p, mut most_w) = (_mm256_setzero_si256(), _mm256_setzero_si256());
-    for i in (0..whole).step_by(LANES) {
-        // SAFETY: `i + LANES <= whole`, which is at most the length of each of the three slices.
+    let mut four = |i: usize| {
+        // SAFETY: every `i` below is such that `i + LANES <= whole`, at most the length of each of the three slices.
         unsafe {
             let bits = _mm256_loadu_si256(p.as_ptr().add(i).cast());
             // The second operand is the answer where the first is not a number.
@@ -99,6 +102,17 @@ fn steady_avx2(p: &[f64], v: &[f64], k: f64, h: f64, dt: f64, out: &mut [f64]) -
             most_p = _mm256_max_epu32(most_p, _mm256_sub_epi64(bits, least));
             most_w = _mm256_max_epu32(most_w, _mm256_castpd_si256(wear));
         }
+    };
+    let lines = whole - whole % (2 * LANES);
+    for i in (0..lines).step_by(2 * LANES) {
+        // A line of the cache from each column. To ask for one beyond its end does no harm: it is not read.
+        _mm_prefetch::<_MM_HINT_T0>(p.as_ptr().wrapping_add(i + AHEAD).cast());
+        _mm_prefetch::<_MM_HINT_T0>(v.as_ptr().wrapping_add(i + AHEAD).cast());
+        four(i);
+        four(i + LANES);
+    }
+    if lines < whole {
+        four(lines);
     }
     let mut good = singly(first_p, first_v, c, first_out);
     good &= singly(&p[whole..], &v[whole..], c, &mut out[whole..]);
