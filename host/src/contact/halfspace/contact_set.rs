@@ -1,9 +1,16 @@
 //! Cells in contact, as a list: everything on the set is done on short arrays.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use super::convolve::Rows;
+use super::passes::{WORTH, change};
 
 /// Neighbours that are looked at together.
 const BLOCK: usize = 32;
+/// Rows that one thread does at a time.
+pub const GROUP: usize = 16;
 
 /// Cells of a window, in the order of the grid.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,10 +37,36 @@ impl ContactSet {
 
     /// The cells of a window of `width` columns with pressure, and those whose gap and displacement add up to less than
     /// `joins`.
-    pub fn touching(width: usize, pressure: &[f64], gap: &[f64], u: &[f64], joins: f64) -> ContactSet {
+    pub fn touching(threads: usize, width: usize, pressure: &[f64], gap: &[f64], u: &[f64], joins: f64) -> ContactSet {
         let rows = pressure.len() / width;
+        let some = |rows: Range<usize>| ContactSet::touching_in(rows, width, pressure, gap, u, joins);
+        if threads <= 1 || pressure.len() < WORTH {
+            return some(0..rows);
+        }
+        let groups = (0..rows.div_ceil(GROUP)).into_par_iter();
+        let parts: Vec<ContactSet> = groups.map(|group| some(group * GROUP..rows.min((group + 1) * GROUP))).collect();
         let mut set = ContactSet { width, cells: Vec::new(), starts: Vec::with_capacity(rows + 1) };
-        for row in 0..rows {
+        set.cells.reserve_exact(parts.iter().map(ContactSet::len).sum());
+        for part in parts {
+            let before = set.cells.len() as u32;
+            set.starts.extend(part.starts[..part.starts.len() - 1].iter().map(|start| before + start));
+            set.cells.extend(part.cells);
+        }
+        set.starts.push(set.cells.len() as u32);
+        set
+    }
+
+    /// Those in some rows.
+    fn touching_in(
+        rows: Range<usize>,
+        width: usize,
+        pressure: &[f64],
+        gap: &[f64],
+        u: &[f64],
+        joins: f64,
+    ) -> ContactSet {
+        let mut set = ContactSet { width, cells: Vec::new(), starts: Vec::with_capacity(rows.len() + 1) };
+        for row in rows {
             set.starts.push(set.cells.len() as u32);
             for first in (0..width).step_by(BLOCK) {
                 let cells = row * width + first..row * width + width.min(first + BLOCK);
@@ -56,20 +89,63 @@ impl ContactSet {
     }
 
     /// The values of an array over the window on the set.
-    pub fn gather(&self, from: &[f64]) -> Vec<f64> {
-        self.cells.iter().map(|cell| from[*cell as usize]).collect()
+    pub fn gather(&self, threads: usize, from: &[f64]) -> Vec<f64> {
+        let mut values = vec![0.0; self.len()];
+        self.gather_into(threads, from, &mut values);
+        values
     }
 
     /// The same, into an array on the set.
-    pub fn gather_into(&self, from: &[f64], to: &mut [f64]) {
-        to.iter_mut().zip(&self.cells).for_each(|(to, cell)| *to = from[*cell as usize]);
+    pub fn gather_into(&self, threads: usize, from: &[f64], to: &mut [f64]) {
+        change(threads, to, |at, _| from[self.cells[at] as usize]);
     }
 
     /// Writes values on the set into an array over the window.
-    pub fn scatter(&self, values: &[f64], to: &mut [f64]) {
-        for (cell, value) in self.cells.iter().zip(values) {
-            to[*cell as usize] = *value;
+    pub fn scatter(&self, threads: usize, values: &[f64], to: &mut [f64]) {
+        self.in_rows(threads, self.width, to, |group, to| {
+            let first = group.rows.start * self.width;
+            for (cell, value) in self.cells[group.cells.clone()].iter().zip(&values[group.cells]) {
+                to[*cell as usize - first] = *value;
+            }
+        });
+    }
+
+    /// Does something with groups of rows and their parts of an array over the set, at the same time where that pays.
+    pub fn in_groups<T: Send, R: Send>(
+        &self,
+        threads: usize,
+        of: &mut [T],
+        act: impl Fn(Group, &mut [T]) -> R + Sync,
+    ) -> Vec<R> {
+        let rows = self.starts.len() - 1;
+        if threads <= 1 || self.len() < WORTH {
+            return vec![act(self.group(0..rows), of)];
         }
+        let mut rest = of;
+        let mut parts = Vec::with_capacity(rows.div_ceil(GROUP));
+        for first in (0..rows).step_by(GROUP) {
+            let group = self.group(first..rows.min(first + GROUP));
+            let (part, others) = rest.split_at_mut(group.cells.len());
+            parts.push((group, part));
+            rest = others;
+        }
+        parts.into_par_iter().map(|(group, part)| act(group, part)).collect()
+    }
+
+    /// The same with an array that has so many numbers for each row.
+    pub fn in_rows<T: Send>(&self, threads: usize, width: usize, of: &mut [T], act: impl Fn(Group, &mut [T]) + Sync) {
+        let rows = self.starts.len() - 1;
+        if threads <= 1 || self.len() < WORTH {
+            return act(self.group(0..rows), of);
+        }
+        of.par_chunks_mut(GROUP * width).enumerate().for_each(|(group, part)| {
+            act(self.group(group * GROUP..rows.min((group + 1) * GROUP)), part);
+        });
+    }
+
+    /// Some rows and their cells.
+    fn group(&self, rows: Range<usize>) -> Group {
+        Group { cells: self.starts[rows.start] as usize..self.starts[rows.end] as usize, rows }
     }
 
     /// The part of a row: its first place in arrays on the set, and its cells.
@@ -77,6 +153,14 @@ impl ContactSet {
         let (begin, end) = (self.starts[row] as usize, self.starts[row + 1] as usize);
         (begin, &self.cells[begin..end])
     }
+}
+
+/// Rows next to each other.
+pub struct Group {
+    /// The rows.
+    pub rows: Range<usize>,
+    /// Places of their cells in arrays on the set.
+    pub cells: Range<usize>,
 }
 
 /// Values on a set as input of a convolution, which answers on the whole window.

@@ -1,7 +1,7 @@
 //! Preconditioned conjugate gradients on a set that stays.
 
 use super::contact_set::ContactSet;
-use super::passes::{add, change, dot, sum};
+use super::passes::{add, change, dot, each_chunk, sum};
 use super::patch::Patch;
 use super::residual;
 use super::stencil::Stencil;
@@ -47,14 +47,20 @@ pub struct Followed<'a> {
 
 /// The error of pressures with these gaps, those below zero counting as zero.
 pub fn error(patch: &Patch<'_>, pressure: &[f64], gap: &[f64]) -> f64 {
-    let mut lowest = f64::INFINITY;
-    let (mut total, mut weighted) = (0.0, 0.0);
-    for (p, gap) in pressure.iter().zip(gap) {
-        let p = p.max(0.0);
-        lowest = lowest.min(*gap);
-        total += p;
-        weighted += p * if patch.sum.is_some() { *gap } else { gap.abs() };
-    }
+    let parts = each_chunk(patch.threads, pressure.len(), |range| {
+        let mut lowest = f64::INFINITY;
+        let (mut total, mut weighted) = (0.0, 0.0);
+        for (p, gap) in pressure[range.clone()].iter().zip(&gap[range]) {
+            let p = p.max(0.0);
+            lowest = lowest.min(*gap);
+            total += p;
+            weighted += p * if patch.sum.is_some() { *gap } else { gap.abs() };
+        }
+        (lowest, total, weighted)
+    });
+    let (lowest, total, weighted) = parts.into_iter().fold((f64::INFINITY, 0.0, 0.0), |all: (f64, f64, f64), part| {
+        (all.0.min(part.0), all.1 + part.1, all.2 + part.2)
+    });
     let mean = if total > 0.0 { weighted / total } else { 0.0 };
     if patch.sum.is_some() { mean - lowest } else { mean + (-lowest).max(0.0) }
 }
@@ -129,13 +135,13 @@ impl Descent {
                 return true;
             }
             ones.fill(1.0);
-            stencil.apply(patch, ones, unit);
+            stencil.apply(patch, set, ones, unit);
             unit_sum = sum(threads, count, |i| unit[i]);
         }
         let own = stencil.own();
         let mut last = 0.0;
         for iteration in 0..goal.most {
-            stencil.apply(patch, &self.residual, steep);
+            stencil.apply(patch, set, &self.residual, steep);
             if patch.sum.is_some() {
                 let factor = sum(threads, count, |i| steep[i]) / unit_sum;
                 add(threads, steep, -factor, unit);
@@ -154,7 +160,7 @@ impl Descent {
             followed.kept &= iteration < followed.most;
             if followed.kept {
                 patch.image_over(set, direction, over);
-                set.gather_into(over, image);
+                set.gather_into(threads, over, image);
             } else {
                 patch.image(set, direction, image);
             }

@@ -16,13 +16,13 @@ const REDUCTION: f64 = 1e-9;
 /// Closes the gap on the set. `pressure` is over the window.
 pub fn close(patch: &mut Patch<'_>, set: &ContactSet, tolerance: f64, pressure: &mut [f64]) -> Outcome {
     let count = set.len();
-    let mut values = set.gather(pressure);
+    let mut values = set.gather(patch.threads, pressure);
     values.iter_mut().filter(|p| !p.is_finite()).for_each(|p| *p = 0.0);
     if let Some(wanted) = patch.sum {
         let lacking = (wanted - values.iter().sum::<f64>()) / count.max(1) as f64;
         values.iter_mut().for_each(|p| *p += lacking);
     }
-    let gap = set.gather(&patch.gap);
+    let gap = set.gather(patch.threads, &patch.gap);
     let mut stencil = Stencil::new(patch, set);
     stencil.turn_to(patch, set);
     let mut descent = Descent { pressure: values, residual: gap.clone(), iterations: 0 };
@@ -74,6 +74,6 @@ pub fn close(patch: &mut Patch<'_>, set: &ContactSet, tolerance: f64, pressure: 
     }
     stencil.end(patch);
     pressure.fill(0.0);
-    set.scatter(&best, pressure);
+    set.scatter(patch.threads, &best, pressure);
     outcome
 }

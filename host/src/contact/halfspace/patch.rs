@@ -3,6 +3,7 @@
 use super::contact_set::{ContactSet, FromSet, OnSet};
 use super::convolve::{Convolution, Dense};
 use super::kernel::Kernel;
+use super::passes::{add, change};
 use super::room::Room;
 use crate::contact::averaged_twice;
 
@@ -67,10 +68,9 @@ impl Patch<'_> {
             averaged_twice(self.counts, self.wraps, pressure, &mut smooth);
             out.iter_mut().enumerate().for_each(|(cell, out)| *out += self.local(cell) * smooth[cell]);
         } else if let [uniform] = self.local[..] {
-            out.iter_mut().zip(pressure).for_each(|(out, pressure)| *out += uniform * pressure);
+            add(self.threads, out, uniform, pressure);
         } else {
-            let all = out.iter_mut().zip(pressure).zip(&self.local);
-            all.for_each(|((out, pressure), local)| *out += local * pressure);
+            change(self.threads, out, |cell, out| out + self.local[cell] * pressure[cell]);
         }
     }
 
@@ -83,15 +83,13 @@ impl Patch<'_> {
         }
         if self.smoothed {
             let (mut field, mut smooth) = (vec![0.0; self.gap.len()], vec![0.0; self.gap.len()]);
-            set.scatter(values, &mut field);
+            set.scatter(self.threads, values, &mut field);
             averaged_twice(self.counts, self.wraps, &field, &mut smooth);
             for (out, cell) in out.iter_mut().zip(&set.cells) {
                 *out += self.local(*cell as usize) * smooth[*cell as usize];
             }
         } else {
-            for ((out, value), cell) in out.iter_mut().zip(values).zip(&set.cells) {
-                *out += self.local(*cell as usize) * value;
-            }
+            change(self.threads, out, |at, out| out + self.local(set.cells[at] as usize) * values[at]);
         }
     }
 
@@ -104,7 +102,7 @@ impl Patch<'_> {
         }
         if self.smoothed {
             let (mut field, mut smooth) = (vec![0.0; out.len()], vec![0.0; out.len()]);
-            set.scatter(values, &mut field);
+            set.scatter(self.threads, values, &mut field);
             averaged_twice(self.counts, self.wraps, &field, &mut smooth);
             out.iter_mut().enumerate().for_each(|(cell, out)| *out += self.local(cell) * smooth[cell]);
         } else {

@@ -20,7 +20,7 @@ pub fn run(descent: &mut Descent, patch: &mut Patch<'_>, set: &ContactSet, stenc
         return true;
     }
     let mut unit = vec![0.0; count];
-    stencil.apply(patch, &vec![1.0; count], &mut unit);
+    stencil.apply(patch, set, &vec![1.0; count], &mut unit);
     let unit_sum = sum(threads, count, |i| unit[i]);
     let centre = |values: &mut [f64]| {
         let mean = sum(threads, count, |i| values[i]) / count as f64;
@@ -38,7 +38,7 @@ pub fn run(descent: &mut Descent, patch: &mut Patch<'_>, set: &ContactSet, stenc
         let mut triangle = Triangle { columns: Vec::new(), rotations: Vec::new(), right: vec![norm] };
         while directions.len() < KEPT && descent.iterations < goal.most {
             let (mut direction, mut image) = (vec![0.0; count], vec![0.0; count]);
-            stencil.apply(patch, &basis[basis.len() - 1], &mut direction);
+            stencil.apply(patch, set, &basis[basis.len() - 1], &mut direction);
             if loaded {
                 let factor = sum(threads, count, |i| direction[i]) / unit_sum;
                 change(threads, &mut direction, |i, value| value - factor * unit[i]);

@@ -10,7 +10,7 @@
 
 use super::contact_set::ContactSet;
 use super::descend::{Descent, Followed, Goal};
-use super::passes::sum;
+use super::passes::{change, sum};
 use super::patch::Patch;
 use super::state::{self, State, enlarge, go_back, project, start, stop_at_zero};
 use super::stencil::Stencil;
@@ -143,14 +143,14 @@ fn rounds(
         }
         // The last careful round is on the cells with pressure alone.
         let joins = if careful == 1 { f64::NEG_INFINITY } else { approach - 0.25 * bar };
-        let now = ContactSet::touching(patch.counts[0], pressure, &patch.gap, u, joins);
+        let now = ContactSet::touching(patch.threads, patch.counts[0], pressure, &patch.gap, u, joins);
         if error < 0.9 * best.0 {
-            let values = now.gather(pressure);
+            let values = now.gather(patch.threads, pressure);
             best = (error, approach, round, now.clone(), values);
         }
         if round >= MOST_ROUNDS || round > best.2 + PATIENCE || !error.is_finite() {
             pressure.fill(0.0);
-            best.3.scatter(&best.4, pressure);
+            best.3.scatter(patch.threads, &best.4, pressure);
             // What rounding left over is no failure.
             return outcome(best.0, best.1, best.0 <= 64.0 * floor);
         }
@@ -160,8 +160,13 @@ fn rounds(
         if !same {
             stencil.turn_to(patch, &set);
         }
-        let residual = set.cells.iter().map(|cell| patch.gap[*cell as usize] + u[*cell as usize] - approach).collect();
-        let mut descent = Descent { pressure: set.gather(pressure), residual, iterations: 0 };
+        let threads = patch.threads;
+        let mut residual = vec![0.0; set.len()];
+        change(threads, &mut residual, |at, _| {
+            let cell = set.cells[at] as usize;
+            patch.gap[cell] + u[cell] - approach
+        });
+        let mut descent = Descent { pressure: set.gather(threads, pressure), residual, iterations: 0 };
         let next_guarded = guarded || round + 1 > best.2 + LENIENCE;
         if next_guarded {
             before.clear();
@@ -181,15 +186,15 @@ fn rounds(
             descent.run(patch, &set, stencil, &goal, &mut followed);
             known = followed.kept;
             if careful == 1 {
-                stop_at_zero(&set.gather(pressure), &mut descent.pressure);
+                stop_at_zero(&set.gather(threads, pressure), &mut descent.pressure);
             }
             known &= descent.pressure.iter().all(|p| *p >= 0.0);
-            descent.pressure.iter_mut().for_each(|p| *p = p.max(0.0));
+            change(threads, &mut descent.pressure, |_, p| p.max(0.0));
         }
         careful = careful.saturating_sub(1);
         iterations += descent.iterations;
         last = state;
-        set.scatter(&descent.pressure, pressure);
+        set.scatter(threads, &descent.pressure, pressure);
         known &= rescale(patch, &descent.pressure, pressure);
     }
     unreachable!("the rounds end by themselves")

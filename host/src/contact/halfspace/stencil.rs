@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
-use super::contact_set::ContactSet;
+use super::contact_set::{ContactSet, GROUP};
 use super::neighbours::{Neighbours, RUN};
 use super::passes::WORTH;
 use super::patch::Patch;
@@ -86,24 +86,35 @@ impl Stencil {
             self.factors.clear();
             self.factors.extend(set.cells.iter().map(|cell| (stiffness(cell) / self.mean).sqrt()));
         }
-        self.places.iter().for_each(|place| self.field[*place as usize] = 0.0);
-        self.places.clear();
-        self.runs.clear();
-        let [nx, ny] = patch.counts;
-        for row in 0..ny {
-            let (begin, cells) = set.row(row);
-            // From places in the window to places in the field.
-            let shift = ((row + self.reach[1]) * self.pitch + self.reach[0] - row * nx) as u32;
-            self.places.extend(cells.iter().map(|cell| cell + shift));
-            let (mut next, mut length) = (u32::MAX, 0);
-            for (at, cell) in (begin..).zip(cells) {
-                if *cell != next || length == RUN {
-                    self.runs.push(at as u32);
-                    length = 0;
-                }
-                (next, length) = (cell + 1, length + 1);
-            }
+        if patch.threads > 1 && self.places.len() >= WORTH {
+            self.field.par_chunks_mut(GROUP * self.pitch).for_each(|field| field.fill(0.0));
+        } else {
+            self.places.iter().for_each(|place| self.field[*place as usize] = 0.0);
         }
+        let nx = patch.counts[0];
+        let ([rx, ry], pitch) = (self.reach, self.pitch);
+        self.places.resize(set.len(), 0);
+        let runs = set.in_groups(patch.threads, &mut self.places, |group, places| {
+            let (mut runs, mut rest) = (Vec::new(), places);
+            for row in group.rows {
+                let (begin, cells) = set.row(row);
+                let (places, others) = rest.split_at_mut(cells.len());
+                rest = others;
+                // From places in the window to places in the field.
+                let shift = ((row + ry) * pitch + rx - row * nx) as u32;
+                places.iter_mut().zip(cells).for_each(|(place, cell)| *place = cell + shift);
+                let (mut next, mut length) = (u32::MAX, 0);
+                for (at, cell) in (begin..).zip(cells) {
+                    if *cell != next || length == RUN {
+                        runs.push(at as u32);
+                        length = 0;
+                    }
+                    (next, length) = (cell + 1, length + 1);
+                }
+            }
+            runs
+        });
+        self.runs = runs.concat();
         self.runs.push(self.places.len() as u32);
     }
 
@@ -117,15 +128,21 @@ impl Stencil {
         self.own
     }
 
-    /// out = the near inverse of A + b, times values on the set.
-    pub fn apply(&mut self, patch: &Patch<'_>, values: &[f64], out: &mut [f64]) {
-        if self.factors.is_empty() {
-            self.places.iter().zip(values).for_each(|(place, value)| self.field[*place as usize] = *value);
-        } else {
-            for ((place, value), factor) in self.places.iter().zip(values).zip(&self.factors) {
-                self.field[*place as usize] = factor * value;
+    /// out = the near inverse of A + b, times values on the set that it is confined to.
+    pub fn apply(&mut self, patch: &Patch<'_>, set: &ContactSet, values: &[f64], out: &mut [f64]) {
+        let ([_, ny], [_, ry], pitch) = (patch.counts, self.reach, self.pitch);
+        let (places, factors) = (&self.places, &self.factors);
+        set.in_rows(patch.threads, pitch, &mut self.field[ry * pitch..][..ny * pitch], |group, field| {
+            let first = (ry + group.rows.start) * pitch;
+            let cells = places[group.cells.clone()].iter().zip(&values[group.cells.clone()]);
+            if factors.is_empty() {
+                cells.for_each(|(place, value)| field[*place as usize - first] = *value);
+            } else {
+                for ((place, value), factor) in cells.zip(&factors[group.cells]) {
+                    field[*place as usize - first] = factor * value;
+                }
             }
-        }
+        });
         self.wrap(patch);
         if patch.threads > 1 && out.len() >= WORTH {
             let (mut shares, mut rest) = (Vec::new(), out);
