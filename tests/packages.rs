@@ -45,7 +45,12 @@ fn what_is_carried_is_what_lies_beside_the_crate() {
 
 #[test]
 fn the_crates_it_needs_are_packaged_too() {
-    for (name, file) in [("wearlaw-plugin-api", "src/abi/views.rs"), ("wearlaw-archard", "src/lib.rs")] {
+    let crates = [
+        ("wearlaw-plugin-api", "src/abi/views.rs"),
+        ("wearlaw-archard", "src/lib.rs"),
+        ("wearlaw-transforms", "src/real.rs"),
+    ];
+    for (name, file) in crates {
         let files = packaged(name);
         assert!(files.iter().any(|found| found == file), "{name}: {files:?}");
     }

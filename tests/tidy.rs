@@ -6,7 +6,7 @@ mod sources;
 use std::path::{Path, PathBuf};
 
 /// Folders with sources, from the root.
-const FOLDERS: [&str; 5] = ["host", "plugin-api", "plugins", "tests", "include"];
+const FOLDERS: [&str; 6] = ["host", "plugin-api", "plugins", "tests", "transforms", "include"];
 /// Endings of files that people write and read as code.
 const CODE: [&str; 10] = ["rs", "c", "h", "cpp", "hpp", "f90", "inc", "py", "toml", "sh"];
 /// Most lines of a file.

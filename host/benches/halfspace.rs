@@ -9,11 +9,10 @@ use std::f64::consts::PI;
 use std::process::Command;
 use std::time::Instant;
 
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex;
 use support::processor::{peak_megabytes, seconds};
 use wearlaw::contact::halfspace::{Boundary, HalfSpace};
-use wearlaw::contact::{Cells, ContactModel, Control, Diagonal, Problem};
+use wearlaw::contact::{Cells, ContactModel, Control, Diagonal, Instructions, Problem};
+use wearlaw_transforms::{Complex, FftDirection, complex};
 
 const MODULUS: f64 = 110e9;
 const TOLERANCE: f64 = 1e-8;
@@ -145,7 +144,7 @@ fn rough(n: usize) -> (f64, Vec<f64>, f64) {
             slopes += 0.5 * (amplitude * 2.0 * PI * q / size).powi(2);
         }
     }
-    let plan = FftPlanner::new().plan_fft_inverse(n);
+    let plan = complex(Instructions::in_use(), n, FftDirection::Inverse);
     for _ in 0..2 {
         plan.process(&mut field);
         for y in 0..n {

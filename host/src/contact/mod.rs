@@ -8,7 +8,6 @@ mod cells;
 mod error;
 pub mod foundation;
 pub mod halfspace;
-mod instructions;
 mod npy;
 pub mod prescribed;
 mod problem;
@@ -18,9 +17,9 @@ mod traction;
 
 pub use cells::Cells;
 pub use error::ContactError;
-pub use instructions::{INSTRUCTIONS_VARIABLE, Instructions, InstructionsError};
 pub use npy::ArrayFault;
 pub use problem::{ContactModel, Control, Diagonal, Problem, Solution};
 pub(crate) use root_mean::RootMean;
 pub(crate) use traction::averaged_twice;
 pub use traction::{corners_and_back, nodal_traction};
+pub use wearlaw_transforms::{INSTRUCTIONS_VARIABLE, Instructions, InstructionsError};

@@ -124,7 +124,7 @@ impl Report {
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let document = self.document();
         write_file(path, |to| {
-            serde_json::to_writer_pretty(&mut *to, &document)?;
+            to.write_all(&serde_json::to_vec_pretty(&document)?)?;
             to.write_all(b"\n")
         })
     }

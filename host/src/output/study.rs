@@ -38,7 +38,7 @@ pub fn write_study(study: &StudyRecord, path: &Path) -> Result<(), OutputError> 
     write_file(&path.join(TABLE), |to| rows(study, to))?;
     plot::write_study_plot(study, &path.join(PICTURE))?;
     write_file(&path.join(DOCUMENT), |to| {
-        serde_json::to_writer_pretty(&mut *to, study).map_err(io::Error::from)?;
+        to.write_all(&serde_json::to_vec_pretty(study).map_err(io::Error::from)?)?;
         writeln!(to)
     })
 }

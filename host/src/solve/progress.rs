@@ -103,10 +103,12 @@ impl Arrays {
         if let [(start, slices)] = chunks.as_mut_slice() {
             return vec![work(*start, slices, &mut Scratch::default())];
         }
+        let mut results = Vec::new();
         chunks
             .into_par_iter()
             .map_init(Scratch::default, |scratch, (start, mut slices)| work(start, &mut slices, scratch))
-            .collect()
+            .collect_into_vec(&mut results);
+        results
     }
 
     /// Advances all points over one piece and sums up what they are at its end.

@@ -58,7 +58,7 @@ fn path(folder: &Path, case: usize) -> PathBuf {
 /// A file that cannot be written.
 pub fn write_row(folder: &Path, row: &Row) -> Result<(), OutputError> {
     write_file(&path(folder, row.case), |to| {
-        serde_json::to_writer(&mut *to, row)?;
+        to.write_all(&serde_json::to_vec(row)?)?;
         to.write_all(b"\n")
     })
 }

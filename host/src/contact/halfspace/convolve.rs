@@ -7,11 +7,9 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use rustfft::{Fft, FftDirection, num_complex::Complex};
+use wearlaw_transforms::{Complex, Fft, FftDirection, Instructions, Real, complex};
 
 use super::symbol::Quarter;
-use super::transforms::{Real, complex};
-use crate::contact::Instructions;
 
 /// Columns in a strip: two lines of cache in each row.
 const STRIP: usize = 8;

@@ -24,7 +24,6 @@ mod stencil;
 mod symbol;
 #[cfg(test)]
 mod tests;
-mod transforms;
 mod window;
 
 use super::{Cells, ContactError, ContactModel, Instructions, Problem, Solution};

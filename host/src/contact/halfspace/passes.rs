@@ -1,4 +1,6 @@
 //! Passes over long arrays, in chunks whose bounds do not depend on the number of threads: so sums have the same bits.
+//!
+//! Threads share chunks through `dyn Fn`: one call for 8192 numbers, and the joining of threads is compiled once.
 
 use std::ops::Range;
 
@@ -15,11 +17,14 @@ pub const WORTH: usize = 1 << 15;
 pub fn each_chunk<T: Send>(threads: usize, count: usize, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
     let chunks = count.div_ceil(CHUNK);
     let one = |chunk: usize| of(chunk * CHUNK..count.min((chunk + 1) * CHUNK));
-    if threads > 1 && count >= WORTH {
-        (0..chunks).into_par_iter().map(one).collect()
-    } else {
-        (0..chunks).map(one).collect()
-    }
+    if threads > 1 && count >= WORTH { shared(chunks, &one) } else { (0..chunks).map(one).collect() }
+}
+
+/// What a function makes of each of 0..chunks, in order, by the threads of the pool.
+fn shared<T: Send>(chunks: usize, one: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+    let mut made = Vec::new();
+    (0..chunks).into_par_iter().map(one).collect_into_vec(&mut made);
+    made
 }
 
 /// Sum of a function over 0..count.
@@ -70,8 +75,13 @@ pub fn change(threads: usize, values: &mut [f64], to: impl Fn(usize, f64) -> f64
         values.iter_mut().enumerate().for_each(|(at, value)| *value = to(first + at, *value));
     };
     if threads > 1 && values.len() >= WORTH {
-        values.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, values)| one(chunk * CHUNK, values));
+        shared_out(values, &one);
     } else {
         one(0, values);
     }
+}
+
+/// Gives each chunk of an array and its first place to a function, by the threads of the pool.
+fn shared_out(values: &mut [f64], one: &(dyn Fn(usize, &mut [f64]) + Sync)) {
+    values.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, values)| one(chunk * CHUNK, values));
 }

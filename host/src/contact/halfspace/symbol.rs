@@ -1,9 +1,6 @@
 //! Real even kernels and their transforms, which are real and even too.
 
-use rustfft::num_complex::Complex;
-
-use super::transforms::Real;
-use crate::contact::Instructions;
+use wearlaw_transforms::{Complex, Instructions, Real};
 
 /// A quarter of an even array with periods `periods`: `[x][y]`, x and y from 0 to half the period.
 #[derive(Clone, Debug)]

@@ -13,8 +13,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use rustfft::num_complex::Complex;
-use rustfft::{FftDirection, FftPlannerScalar};
+use wearlaw_transforms::{Complex, FftDirection, Instructions, complex};
 
 use super::super::Cells;
 use super::SurfaceError;
@@ -126,11 +125,11 @@ impl Spectrum {
             let row = wave.ky.rem_euclid(ny as i64) as usize;
             spectrum[wave.kx as usize * ny + row] += Complex::from_polar(wave.amplitude * scale, phase);
         }
-        let mut planner = FftPlannerScalar::new();
+        let inverse = |length| complex(Instructions::Baseline, length, FftDirection::Inverse);
         if ny > 1 {
-            planner.plan_fft(ny, FftDirection::Inverse).process(&mut spectrum);
+            inverse(ny).process(&mut spectrum);
         }
-        let along_x = planner.plan_fft(nx, FftDirection::Inverse);
+        let along_x = inverse(nx);
         let mut scratch = vec![zero; along_x.get_inplace_scratch_len()];
         let mut line = vec![zero; nx];
         let mut heights = Vec::with_capacity(nx * ny);

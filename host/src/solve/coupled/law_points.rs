@@ -216,8 +216,9 @@ fn shared(
         parts.push((first..first + length, part));
         (rest, first) = (more, first + length);
     }
-    let answers: Vec<_> =
-        parts.into_par_iter().map(|(range, mut part)| evaluator.evaluate(&batch.range(range), &mut part)).collect();
+    let mut answers = Vec::new();
+    let evaluate = |(range, mut part)| evaluator.evaluate(&batch.range(range), &mut part);
+    parts.into_par_iter().map(evaluate).collect_into_vec(&mut answers);
     answers.into_iter().try_fold(Evaluation::Good, |worst, answer| Ok(worst.worse(answer?)))
 }
 

@@ -1,4 +1,4 @@
-//! Fourier transforms by a given set of instructions: complex ones of rustfft, and real ones made of them.
+//! Transforms of real lines, made of complex ones.
 //!
 //! A real line of even length is transformed as a complex one of half the length (Press et al., Numerical Recipes, 3rd ed.,
 //! section 12.3), one of odd length as a complex one. Planners that look for the best instructions themselves, as those of
@@ -7,30 +7,9 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftDirection, FftPlannerScalar};
-
-use crate::contact::Instructions;
+use crate::{Complex, Fft, FftDirection, Instructions, complex};
 
 const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
-
-/// The transform of complex lines of one length, in place; not normalised.
-pub fn complex(set: Instructions, length: usize, direction: FftDirection) -> Arc<dyn Fft<f64>> {
-    let planned = match set {
-        #[cfg(target_arch = "x86_64")]
-        Instructions::Avx2 => rustfft::FftPlannerAvx::new().ok().map(|mut planner| planner.plan_fft(length, direction)),
-        #[cfg(target_arch = "x86_64")]
-        Instructions::Sse41 => {
-            rustfft::FftPlannerSse::new().ok().map(|mut planner| planner.plan_fft(length, direction))
-        }
-        #[cfg(target_arch = "aarch64")]
-        Instructions::Neon => {
-            rustfft::FftPlannerNeon::new().ok().map(|mut planner| planner.plan_fft(length, direction))
-        }
-        _ => None,
-    };
-    planned.unwrap_or_else(|| FftPlannerScalar::new().plan_fft(length, direction))
-}
 
 /// Transforms of real lines of one length to their bins and back; not normalised.
 pub struct Real {
@@ -43,6 +22,7 @@ pub struct Real {
 
 impl Real {
     /// Of lines of this length, not 0.
+    #[must_use]
     pub fn new(set: Instructions, length: usize) -> Real {
         let even = length.is_multiple_of(2);
         let inner = if even { length / 2 } else { length };
@@ -54,11 +34,13 @@ impl Real {
     }
 
     /// Bins of a line.
+    #[must_use]
     pub fn bins(&self) -> usize {
         self.length / 2 + 1
     }
 
     /// Complex numbers that a transform works in.
+    #[must_use]
     pub fn scratch(&self) -> usize {
         let inner = self.forward.get_inplace_scratch_len().max(self.backward.get_inplace_scratch_len());
         inner + if self.turns.is_empty() { self.length } else { 0 }
