@@ -72,6 +72,13 @@ fn state_is_committed_rolled_back_and_restarted() {
 }
 
 #[test]
+fn a_law_that_ends_its_process_is_a_status() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let library = law(folder.path(), "plugins/faulty/aborts_on_high_pressure.c", "aborts.so", &[]);
+    checked(folder.path(), "apart", &[&library, env!("CARGO_BIN_EXE_wearlaw")]);
+}
+
+#[test]
 fn a_serial_law_is_called_in_turn() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let count = |said: &str, what: &str| -> u64 {

@@ -15,7 +15,7 @@ use crate::abi::{Constants, Description, Outputs, Solver, Source, Step, WLH_ABI_
 use crate::boundary::{Answer, aligned, answer, array, count, done, read, text as text_of, write};
 use crate::error::HostError;
 use crate::evaluate::told;
-use crate::handle::{Handle, Held};
+use crate::handle::Handle;
 use crate::law::{OpenLaw, field_of};
 use crate::surface::Surface;
 
@@ -34,9 +34,9 @@ unsafe fn law<'a>(pointer: *const LawHandle) -> Result<&'a Handle<Arc<OpenLaw>>,
 
 /// # Safety
 /// As for [`Handle::find`].
-unsafe fn law_of<'a>(pointer: *const LawHandle) -> Result<Arc<OpenLaw>, HostError> {
+unsafe fn law_of(pointer: *const LawHandle) -> Result<Arc<OpenLaw>, HostError> {
     // SAFETY: as the caller says.
-    let mut held: Held<'a, Arc<OpenLaw>> = unsafe { law(pointer) }?.wait()?;
+    let mut held = unsafe { law(pointer) }?.wait()?;
     held.get().cloned()
 }
 

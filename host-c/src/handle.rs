@@ -17,13 +17,13 @@ pub(crate) trait Kind {
 #[repr(C)]
 pub(crate) struct Handle<T> {
     magic: u64,
-    slot: Mutex<Option<T>>,
+    slot: Mutex<Option<Box<T>>>,
 }
 
 impl<T: Kind> Handle<T> {
     /// A pointer that C holds, for ever.
     pub(crate) fn give(content: T) -> *mut Self {
-        Box::into_raw(Box::new(Self { magic: T::MAGIC, slot: Mutex::new(Some(content)) }))
+        Box::into_raw(Box::new(Self { magic: T::MAGIC, slot: Mutex::new(Some(Box::new(content))) }))
     }
 
     /// The handle behind a pointer.
@@ -72,15 +72,65 @@ fn closed<T: Kind>() -> HostError {
 }
 
 /// The content of an open handle, for one call.
-pub(crate) struct Held<'a, T>(MutexGuard<'a, Option<T>>);
+pub(crate) struct Held<'a, T>(MutexGuard<'a, Option<Box<T>>>);
 
 impl<'a, T: Kind> Held<'a, T> {
-    fn new(guard: MutexGuard<'a, Option<T>>) -> Result<Self, HostError> {
+    fn new(guard: MutexGuard<'a, Option<Box<T>>>) -> Result<Self, HostError> {
         if guard.is_some() { Ok(Self(guard)) } else { Err(closed::<T>()) }
     }
 
     /// The content.
     pub(crate) fn get(&mut self) -> Result<&mut T, HostError> {
-        self.0.as_mut().ok_or_else(closed::<T>)
+        self.0.as_deref_mut().ok_or_else(closed::<T>)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Thing;
+
+    impl Kind for Thing {
+        const MAGIC: u64 = 7;
+        const NAME: &'static str = "thing";
+    }
+
+    #[test]
+    fn a_handle_is_told_from_anything_else_and_from_a_closed_one() {
+        let given = Handle::give(Thing);
+        // SAFETY: it has just been given.
+        let handle = unsafe { Handle::find(given) }.unwrap();
+        let first = handle.take_turn().unwrap();
+        assert!(matches!(handle.take_turn(), Err(HostError::Busy)));
+        drop(first);
+        handle.close().unwrap();
+        assert!(matches!(handle.take_turn(), Err(HostError::Handle { found: "closed", .. })));
+        assert!(matches!(handle.close(), Err(HostError::Handle { found: "closed", .. })));
+        let other = [8_u64, 0];
+        for wrong in [std::ptr::null(), other.as_ptr().cast(), other.as_ptr().cast::<u8>().wrapping_add(1).cast()] {
+            // SAFETY: NULL, or memory that can be read and is no handle.
+            assert!(unsafe { Handle::<Thing>::find(wrong) }.is_err());
+        }
+        // The page of the book says so.
+        assert_eq!(size_of::<Handle<Thing>>(), 24);
+        // SAFETY: nobody else has it.
+        drop(unsafe { Box::from_raw(given) });
+    }
+
+    #[test]
+    fn a_handle_whose_call_has_failed_can_only_be_closed() {
+        let given = Handle::give(Thing);
+        // SAFETY: it has just been given.
+        let handle = unsafe { Handle::find(given) }.unwrap();
+        let failed = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+            let _held = handle.take_turn();
+            panic!("for the test");
+        }));
+        assert!(failed.is_err());
+        assert!(matches!(handle.take_turn(), Err(HostError::Internal(_))));
+        handle.close().unwrap();
+        // SAFETY: nobody else has it.
+        drop(unsafe { Box::from_raw(given) });
     }
 }
