@@ -7,35 +7,40 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-fn generated() -> String {
-    let api = root().join("plugin-api");
-    let config = cbindgen::Config::from_file(api.join("cbindgen.toml")).expect("cbindgen.toml is readable");
-    let bindings = cbindgen::Builder::new()
-        .with_config(config)
-        .with_src(api.join("src/abi/version.rs"))
-        .with_src(api.join("src/abi/status.rs"))
-        .with_src(api.join("src/abi/masks.rs"))
-        .with_src(api.join("src/abi/views.rs"))
-        .with_src(api.join("src/abi/descriptor.rs"))
-        .generate()
-        .expect("cbindgen reads the ABI");
+/// What cbindgen makes of some sources of a crate.
+fn generated(member: &str, sources: &[&str]) -> String {
+    let member = root().join(member);
+    let config = cbindgen::Config::from_file(member.join("cbindgen.toml")).expect("cbindgen.toml is readable");
+    let builder = cbindgen::Builder::new().with_config(config);
+    let builder = sources.iter().fold(builder, |builder, source| builder.with_src(member.join("src").join(source)));
     let mut text = Vec::new();
-    bindings.write(&mut text);
+    builder.generate().expect("cbindgen reads the sources").write(&mut text);
     String::from_utf8(text).expect("a header is text")
+}
+
+/// Compares a committed header with what its crate gives now, or writes it anew.
+fn assert_generated(header: &str, member: &str, sources: &[&str]) {
+    let path = root().join("include").join(header);
+    let now = generated(member, sources);
+    if std::env::var_os("WEARLAW_REGENERATE").is_some() {
+        std::fs::write(&path, &now).expect("the header can be written");
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("include/{header}: {error}"));
+    assert!(
+        committed == now,
+        "include/{header} is out of step with {member}; run WEARLAW_REGENERATE=1 cargo test --test headers"
+    );
 }
 
 #[test]
 fn wearlaw_h_is_what_cbindgen_generates() {
-    let path = root().join("include/wearlaw.h");
-    let now = generated();
-    if std::env::var_os("WEARLAW_REGENERATE").is_some() {
-        std::fs::write(&path, &now).expect("the header can be written");
-    }
-    let committed = std::fs::read_to_string(&path).expect("include/wearlaw.h is committed");
-    assert!(
-        committed == now,
-        "include/wearlaw.h is out of step with plugin-api; run WEARLAW_REGENERATE=1 cargo test --test headers"
-    );
+    let sources = ["version", "status", "masks", "views", "descriptor"].map(|name| format!("abi/{name}.rs"));
+    assert_generated("wearlaw.h", "plugin-api", &sources.each_ref().map(String::as_str));
+}
+
+#[test]
+fn wearlaw_host_h_is_what_cbindgen_generates() {
+    assert_generated("wearlaw_host.h", "host/c", &["abi.rs", "functions.rs"]);
 }
 
 /// What a law must say before it includes the point-wise helper in C.
@@ -79,11 +84,13 @@ fn every_header_compiles_alone_and_twice() {
                  out.increment = in.dt; return WL_OK; } };\nWEARLAW_EXPORT(A)\n";
     for standard in ["c99", "c11"] {
         assert_compiles("wearlaw.h", "", "typedef int nothing;\n", standard);
+        assert_compiles("wearlaw_host.h", "", "typedef int nothing;\n", standard);
         assert_compiles("wearlaw_point.h", MINIMAL, point, standard);
         assert_compiles("wearlaw_point_loop.h", MINIMAL, point, standard);
     }
     for standard in ["c++11", "c++17"] {
         assert_compiles("wearlaw.h", "", "", standard);
+        assert_compiles("wearlaw_host.h", "", "", standard);
         for header in ["wearlaw.hpp", "wearlaw_loop.hpp", "wearlaw_entry.hpp"] {
             assert_compiles(header, "", class, standard);
         }
@@ -96,6 +103,7 @@ fn every_header_is_tested_alone() {
         "wearlaw.h",
         "wearlaw.hpp",
         "wearlaw_entry.hpp",
+        "wearlaw_host.h",
         "wearlaw_loop.hpp",
         "wearlaw_point.h",
         "wearlaw_point_loop.h",
@@ -109,7 +117,7 @@ fn every_header_is_tested_alone() {
 
 #[test]
 fn fortran_sources_stay_within_132_columns() {
-    for name in ["wearlaw.f90", "wearlaw_point.inc", "wearlaw_point_loop.inc"] {
+    for name in ["wearlaw.f90", "wearlaw_host.f90", "wearlaw_point.inc", "wearlaw_point_loop.inc"] {
         let text = std::fs::read_to_string(root().join("include").join(name)).expect("it is there");
         let longest = text.lines().map(str::len).max();
         assert!(longest <= Some(132), "{name}: a line of {longest:?}");

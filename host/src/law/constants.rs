@@ -168,7 +168,7 @@ impl LawDescriptor {
                 return Err(ConstantsError::Unknown {
                     law: self.name.clone(),
                     name: name.clone(),
-                    nearest: self.nearest(name),
+                    nearest: nearest(name, &self.constants),
                     known: self.constant_names(),
                 });
             };
@@ -192,19 +192,20 @@ impl LawDescriptor {
         values.resize(self.constants.len(), None);
         Ok(values)
     }
+}
 
-    fn nearest(&self, name: &str) -> Option<String> {
-        self.constants
-            .iter()
-            .map(|constant| {
-                let same_letters =
-                    strsim::normalized_damerau_levenshtein(&constant.name.to_lowercase(), &name.to_lowercase());
-                (same_letters, &constant.name)
-            })
-            .filter(|(likeness, _)| *likeness > 0.5)
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .map(|(_, name)| name.clone())
-    }
+/// The quantity whose name was probably meant.
+pub fn nearest(name: &str, known: &[Quantity]) -> Option<String> {
+    known
+        .iter()
+        .map(|quantity| {
+            let same_letters =
+                strsim::normalized_damerau_levenshtein(&quantity.name.to_lowercase(), &name.to_lowercase());
+            (same_letters, &quantity.name)
+        })
+        .filter(|(likeness, _)| *likeness > 0.5)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, name)| name.clone())
 }
 
 /// The bounds are in SI units; those of the constant that closes the units survive a change of units by their sign alone.

@@ -126,17 +126,28 @@ impl ConstantTable {
         let one = match *temperature {
             _ if !self.varies_in_temperature() => 0.0,
             Values::Uniform(temperature) => temperature,
-            Values::PerPoint(all) => {
-                room.clear();
-                for c in 0..self.count {
-                    room.extend(all[..points].iter().map(|temperature| self.value(c, time, *temperature)));
-                }
-                let chunks = room.chunks_exact(points.max(1));
-                return chunks.take(self.count).map(Values::PerPoint).collect();
-            }
+            Values::PerPoint(all) => return self.at_points(time, (all, 1), points, room),
+            Values::Strided { data, step } => return self.at_points(time, (data, step), points, room),
             _ => f64::NAN,
         };
         (0..self.count).map(|c| Values::Uniform(self.value(c, time, one))).collect()
+    }
+
+    /// All constants at a time, for temperatures `step` numbers apart.
+    fn at_points<'b>(
+        &self,
+        time: f64,
+        (temperatures, step): (&[f64], usize),
+        points: usize,
+        room: &'b mut Vec<f64>,
+    ) -> Vec<Values<'b>> {
+        room.clear();
+        for c in 0..self.count {
+            let temperatures = temperatures.iter().step_by(step).take(points);
+            room.extend(temperatures.map(|temperature| self.value(c, time, *temperature)));
+        }
+        let chunks = room.chunks_exact(points.max(1));
+        chunks.take(self.count).map(Values::PerPoint).collect()
     }
 }
 
@@ -195,6 +206,9 @@ mod tests {
         let temperature = [0.0, 5.0, 20.0];
         let all = table.at(0.0, &Values::PerPoint(&temperature), 3, &mut room);
         assert_eq!(all, [Values::PerPoint(&[1.0, 2.0, 3.0]), Values::PerPoint(&[0.0, 2.0, 4.0])]);
+        let apart = [0.0, f64::NAN, 5.0, f64::NAN, 20.0];
+        let strided = table.at(0.0, &Values::Strided { data: &apart, step: 2 }, 3, &mut room);
+        assert_eq!(strided, [Values::PerPoint(&[1.0, 2.0, 3.0]), Values::PerPoint(&[0.0, 2.0, 4.0])]);
         let one = table.at(0.0, &Values::Uniform(5.0), 3, &mut room);
         assert_eq!(one, [Values::Uniform(2.0), Values::Uniform(2.0)]);
     }
