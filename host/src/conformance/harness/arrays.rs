@@ -18,7 +18,7 @@ pub(crate) enum Room {
 const PADDING: usize = 1024;
 const ALIGNMENT: usize = 64;
 
-/// Address space that arrays with guards are cut from: to map and unmap each by itself took most of the time of a check.
+/// Address space that arrays with guards are cut from: a call has some thirty, and to map each by itself takes its time.
 struct Region {
     first: *mut u8,
     length: usize,
