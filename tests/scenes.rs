@@ -6,6 +6,8 @@ mod native;
 mod npz;
 #[path = "support/scene_runs.rs"]
 mod scene_runs;
+#[path = "scenes/work.rs"]
+mod work;
 
 use std::path::{Path, PathBuf};
 
@@ -63,6 +65,7 @@ fn all_scenes() -> Vec<PathBuf> {
 
 #[test]
 fn every_scene_runs_and_keeps_its_bar() {
+    let (mut done, mut left_out) = (work::Work::new(), Vec::new());
     for scene in all_scenes() {
         let text = read(&scene);
         let first: Vec<&str> = text.lines().take(2).collect();
@@ -70,6 +73,7 @@ fn every_scene_runs_and_keeps_its_bar() {
         assert!(what.starts_with("# ") && look.starts_with("# What to look at"), "{}", scene.display());
         let name = scene.file_stem().expect("a name").to_str().expect("a plain name");
         if text.contains(".f90\"") && !native::fortran(&format!("scene {name}")) {
+            left_out.push(name.to_owned());
             continue;
         }
         let room = tempfile::tempdir().expect("a temporary folder");
@@ -82,7 +86,9 @@ fn every_scene_runs_and_keeps_its_bar() {
         let asked = ran.report["scene"]["output"]["fields"].as_array().is_some_and(|fields| !fields.is_empty());
         let written = ran.folder.join("fields").is_dir();
         assert_eq!(asked, written, "{name}: fields are written where they are asked for");
+        done.insert(name.to_owned(), work::of(&ran));
     }
+    work::hold(&done, &left_out);
 }
 
 fn check_report(name: &str, report: &Value) {
@@ -103,7 +109,7 @@ fn check_report(name: &str, report: &Value) {
     let highest = if prescribed { 1e-6 } else { 0.12 };
     assert!(error <= bar && bar <= highest, "{name}: error {error:e}, bar {bar:e}");
     assert!(report["result"]["max_wear_depth"].as_f64().is_some_and(|depth| depth > 0.0), "{name}");
-    assert!(report["cost"]["run_time_s"].as_f64().is_some_and(|time| time > 0.0 && time < 10.0), "{name}");
+    assert!(report["cost"]["run_time_s"].as_f64().is_some_and(|time| time > 0.0), "{name}");
     let warnings = report["warnings"].as_array().expect("a list");
     // Pressure that dies out opens cells, which is what this one is about.
     let replaced =

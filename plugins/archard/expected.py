@@ -84,10 +84,62 @@ ROWS = [
     (1e-300, 1e8, 1.0, 1.0, 3.0, 0.5, 1.0),
 ]
 
+# Every pair of exponents at points of every size, under constants of every size in turn.
+CONSTANTS = [(1e-4, 2e9, 1.0), (3.7e-5, 1.3e9, 0.0625), (1e-170, 7e-150, 2.5e20), (1e130, 3e12, 1e-140)]  # K, H, dt
+POINTS = [  # pressure, velocity
+    (5.1e7, 0.23),
+    (3.3e-5, -0.31),
+    (2e-310, 0.7),
+    (6e120, 1.3),
+    (1.7e8, 6e-130),
+    (0.0, 0.2),
+    (-4e6, 0.2),
+    (9.1e6, 4e-311),
+    (0.6, 0.45),
+]
+EXPONENTS = [(m, n) for m in (1.0, 0.0, 0.5, 2.37, -0.75) for n in (1.0, 0.0, 0.8, -0.6)]
+
+# Factors and products below the normal range, and the whole numbers among the exponents once more.
+MORE = [
+    (1e-200, 1e100, 1.0, 1.0, 3.7e-12, 1.3e100, 1.0),
+    (1e-200, 1e100, 0.0, 1.0, 3.7e-12, 1.3e100, 1.0),
+    (2.3e-120, 7e130, 1.0, 1.0, 0.41, 1.7e110, 0.3),
+    (2.3e-120, 7e130, 1.0, 0.0, 0.41, 1.7e110, 0.3),
+    (2.3e-120, 7e130, 0.0, 1.0, 0.41, 1.7e110, 0.3),
+    (1e-4, 2e9, 1.0, 1.0, 0.37, 0.2, 1.0),
+    (1e-4, 2e9, 1.0, 0.0, 0.37, 0.2, 1.0),
+    (1e-4, 2e9, 0.0, 1.0, 0.37, 0.2, 1.0),
+    (1e-4, 2e9, 1.0, 1.0, 0.81, -3.1, 0.5),
+    (1e-4, 2e9, 1.0, 0.0, 0.81, -3.1, 0.5),
+    (1e-4, 2e9, 0.0, 1.0, 0.81, -3.1, 0.5),
+    (1.0, 3.0, 1.0, 1.0, 0.77, 0.9, 1.0),
+    (1.0, 3.0, 1.0, 0.0, 0.77, 0.9, 1.0),
+    (1.0, 3.0, 0.0, 1.0, 0.77, 0.9, 1.0),
+    (1e-200, 1e100, 1.0, 1.0, 3.7e-18, 1.3e100, 1.0),
+    (3e-210, 7e107, 1.0, 1.0, 3.3e100, 1.7e60, 1.0),
+    # The linear law has a way of its own for the increment alone: constants that it must leave to the general one.
+    (1e-200, 1e150, 1.0, 1.0, 1e200, 1e20, 1.0),
+    (1e200, 1e-150, 1.0, 1.0, 1e-90, 1e-60, 1e-120),
+    (1e-120, 1e-120, 1.0, 1.0, 1e8, 0.1, 1e-120),
+    (1e-150, 1e8, 1.0, 1.0, 1e150, 1e8, 1e-160),
+]
+
+
+def grid():
+    """The rows of every pair of exponents whose answers are 0 or lie in the normal range."""
+    turn = 0
+    for m, n in EXPONENTS:
+        for p, v in POINTS:
+            K, H, dt = CONSTANTS[turn % len(CONSTANTS)]
+            turn += 1
+            row = (K, H, m, n, p, v, dt)
+            if all(x == 0 or 1e-300 < abs(x) < 1e300 for x in archard(*row)):
+                yield row
+
 
 def main():
     print("K,H,m,n,pressure,velocity,dt,increment,d_pressure")
-    for row in ROWS:
+    for row in (*ROWS, *grid(), *MORE):
         answers = [rounded(x) for x in archard(*row)]
         print(",".join(repr(x) for x in (*row, *answers)))
 

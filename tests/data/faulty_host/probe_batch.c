@@ -7,12 +7,24 @@ static const char *wanted;
 
 static int is(const char *name) { return strcmp(wanted, name) == 0; }
 
-static void singles(law_handle *h, void *instance, int64_t points) {
-    job *j = make_job(h, points, 1);
+static void compare_singles(law_handle *h, void *instance, const job *j) {
     reply *all = evaluate(h, instance, j, all_outputs(h));
-    for (int64_t i = 0; i < points; ++i) {
+    for (int64_t i = 0; i < j->points; ++i) {
         compare_part(h, all, &i, evaluate(h, instance, part_of(h, j, &i, 1), all_outputs(h)), 1, "a point alone");
     }
+}
+
+static void singles(law_handle *h, void *instance, int64_t points) {
+    compare_singles(h, instance, make_job(h, points, 1));
+}
+
+/* The same with pressures about 1e-300 at every point. */
+static void tiny_singles(law_handle *h, void *instance) {
+    job *j = make_job(h, POINTS, 1);
+    for (int64_t i = 0; j->field[0] && i < POINTS; ++i) {
+        j->field[0][i] *= 1e-307;
+    }
+    compare_singles(h, instance, j);
 }
 
 static void shuffled(law_handle *h, void *instance) {
@@ -138,6 +150,20 @@ static void statuses(law_handle *h, void *instance) {
     }
 }
 
+/* The increment alone, where one product overflows: the status is that of the call with statuses. */
+static void overflow(law_handle *h, void *instance) {
+    job *j = make_job(h, POINTS, 1);
+    for (int f = 0; f < FIELDS; ++f) {
+        if (j->field[f] && width_of(f) == 1) {
+            j->field[f][3] = 1e300;
+        }
+    }
+    reply *asked = evaluate(h, instance, j, all_outputs(h)), *alone = evaluate(h, instance, j, 0);
+    if (asked->returned != alone->returned) {
+        bad("status %d, and %d where the increment alone is asked for", (int)asked->returned, (int)alone->returned);
+    }
+}
+
 int probe_batch(const char *name, const char *path) {
     if (strncmp(name, "batch/", 6) != 0) {
         return 0;
@@ -147,6 +173,7 @@ int probe_batch(const char *name, const char *path) {
     void *instance = make_instance(h);
     if (is("batch/singles")) {
         singles(h, instance, POINTS);
+        tiny_singles(h, instance);
     } else if (is("batch/odd")) {
         for (int64_t points = 2; points < 68; ++points) {
             singles(h, instance, points);
@@ -169,6 +196,7 @@ int probe_batch(const char *name, const char *path) {
         columns(h, instance, 3, 0);
     } else if (is("batch/status-array")) {
         statuses(h, instance);
+        overflow(h, instance);
     } else {
         return 0;
     }

@@ -1,20 +1,28 @@
 //! Any split, order and layout of the points must give the same answers.
 
-use wearlaw_plugin_api::abi::{WL_CUT_STEP, WL_OK};
+use wearlaw_plugin_api::abi::WL_OK;
 
 use super::super::harness::arrays::Room;
 use super::super::harness::call::{Answers, Asked, Call, Layout};
 use super::super::harness::closeness::AtPoint;
-use super::super::harness::points::{Case, number_text};
+use super::super::harness::points::{Case, Point};
 use super::super::harness::subject::{Instance, Law};
 use super::super::message::{Judged, Verdict, broken};
 use super::super::outcome::Finding;
 use super::bench::{Bench, Differences, POINTS, ask, not_finite, still_good};
-use super::faults::{odd_cases, odd_points, wild_point};
-use crate::law::Fields;
+use super::faults::{odd_points, wild_point};
+use crate::law::fields::Shape;
+use crate::law::{Field, Fields};
 
 /// Points whose fields run over all decades, in a batch of ordinary ones.
 const WILD: usize = 40;
+
+/// Points of a batch that are all far from ordinary in one field: a law that looks at a batch as a whole, to take a
+/// shorter way, never sees that among ordinary points.
+const FAR: usize = 35;
+/// By how much, and by how much its other scalar fields make up for it: then a product has digits to lose on the way.
+const FAR_DECADES: [[(f64, f64); 2]; 3] =
+    [[(1e-312, 1e-300), (1.0, 1.0)], [(1e-312, 1e-300), (1e2, 1e12)], [(1e285, 1e299), (1.0, 1.0)]];
 
 /// A case with the answers to each of its points alone.
 pub(super) struct Known<'a> {
@@ -44,11 +52,31 @@ impl<'a> Known<'a> {
         let mut sampler = bench.sampler(self.law, &[]);
         let mut odd = odd_points(about, &self.case.single(0));
         odd.extend((0..WILD).map(|_| wild_point(&mut sampler, about, &self.case.single(0))));
-        odd.retain(|single| {
-            let answers = ask(about, self.instance, single, &self.layout);
+        self.answered(self.case.points.clone(), odd)
+    }
+
+    /// These points with a scalar field, and the others, scaled at every one by so many decades, as far as the law
+    /// answers them.
+    fn far(&self, bench: &Bench, field: Field, [own, others]: [(f64, f64); 2]) -> Judged<Self> {
+        let mut sampler = bench.sampler(self.law, &[]);
+        let far = over_and_over(self.case.count, FAR).into_iter().map(|point| {
+            self.case.single(point).map(|point| {
+                for scaled in scalars(self.fields()) {
+                    let (low, high) = if scaled == field { own } else { others };
+                    point.scale(scaled, sampler.random.decades(low, high));
+                }
+            })
+        });
+        self.answered(Vec::new(), far.collect())
+    }
+
+    /// `first`, and behind them the points of those calls that the law answers.
+    fn answered(&self, first: Vec<Point>, mut calls: Vec<Case>) -> Judged<Self> {
+        calls.retain(|single| {
+            let answers = ask(&self.law.about, self.instance, single, &self.layout);
             answers.is_good() && not_finite(&answers, 0).is_none()
         });
-        let points = self.case.points.iter().cloned().chain(odd.into_iter().flat_map(|single| single.points)).collect();
+        let points = first.into_iter().chain(calls.into_iter().flat_map(|single| single.points)).collect();
         let case = Case::new(self.case.numbers, self.case.constants.clone(), points);
         Self::of(self.law, self.instance, case, self.layout.asked)
     }
@@ -91,6 +119,11 @@ impl<'a> Known<'a> {
     }
 }
 
+/// The scalar fields of a set.
+fn scalars(fields: Fields) -> impl Iterator<Item = Field> {
+    Field::ALL.iter().copied().filter(move |field| fields.contains(*field) && field.shape() == Shape::Scalar)
+}
+
 /// Runs `work` with good points known one by one, for every way of asking.
 pub(super) fn over_ways(
     bench: &Bench,
@@ -117,12 +150,19 @@ pub(super) fn over_and_over(different: usize, count: usize) -> Vec<usize> {
     (0..count).map(|index| index % different).collect()
 }
 
-/// A batch against its points, ordinary ones and odd ones among them.
+/// A batch against its points: ordinary ones, odd ones among them, and all of them far from ordinary in one field.
 pub(super) fn singles(bench: &Bench) -> Judged {
     over_ways(bench, POINTS, |known, differences| {
         for count in [1, 2, POINTS / 2, POINTS, 8 * POINTS, 16 * POINTS] {
             let indices = over_and_over(POINTS, count);
             known.compare(&indices, &known.layout, &format!("a batch of {count} points"), differences)?;
+        }
+        for field in scalars(known.fields()) {
+            for decades in FAR_DECADES {
+                let far = known.far(bench, field, decades)?;
+                let what = format!("a batch whose {} is far from ordinary at every point", field.name());
+                far.compare(&all(far.case.count), &far.layout, &what, differences)?;
+            }
         }
         let known = known.with_odd_points(bench)?;
         let (ordinary, count) = (all(POINTS), known.case.count);
@@ -239,83 +279,4 @@ pub(super) fn large(bench: &Bench) -> Judged {
         }
         differences.judge(&law.about)
     })
-}
-
-/// Statuses asked for or not, also where some points are refused.
-pub(super) fn status_array(bench: &Bench) -> Judged {
-    bench.with(|law, instance| {
-        let about = &law.about;
-        let case = bench.good(law, instance, POINTS)?;
-        let plain = Layout::plain(about);
-        let with = Layout { asked: Asked { status: true, ..plain.asked }, ..plain };
-        let mut differences = Differences::default();
-        let known = bench.known_constants(law);
-        let mut sampler = bench.sampler(law, &known);
-        let odd = odd_cases(&mut sampler, about, 20);
-        let mut mixed = vec![case.clone()];
-        for (turn, other) in odd.chunks(5).enumerate() {
-            // Every other time beyond the first block of a law that works in blocks.
-            let before = if turn % 2 == 0 { 0 } else { AHEAD };
-            let mut case = case.pick(&over_and_over(POINTS, before + POINTS));
-            for (at, other) in other.iter().enumerate() {
-                case.points[before + 3 * at + 1] = other.points[0].clone();
-            }
-            mixed.push(case);
-        }
-        for case in mixed {
-            let (silent, told) = (ask(about, instance, &case, &plain), ask(about, instance, &case, &with));
-            let worst = told.point_status.iter().copied().max().unwrap_or(0);
-            let input = || case.named(about, told.point_status.iter().position(|s| *s == worst).unwrap_or(0));
-            if silent.status != told.status {
-                let finding = Finding::new("asking for statuses changes the status of the call").at(input());
-                let expected = format!("status {}, as without the array", silent.status);
-                return broken(finding.with(format!("status {}", told.status), expected));
-            }
-            if worst != told.status {
-                let finding = Finding::new("the call does not return the worst status of its points").at(input());
-                return broken(finding.with(format!("status {}", told.status), format!("status {worst}")));
-            }
-            places(law, instance, &case, [&silent, &told], &told.point_status)?;
-            for point in (0..case.count).filter(|point| told.is_good_at(*point) && silent.is_good()) {
-                differences.note(silent.at(point).difference(&told.at(point)), || {
-                    Finding::new("asking for statuses changes a value").at(case.named(about, point))
-                });
-            }
-        }
-        differences.judge(about)
-    })
-}
-
-/// Points ahead of the refused ones: more than a block of the helpers has.
-const AHEAD: usize = 259;
-
-/// The statuses stand at their points, and the first bad point is one that is bad.
-fn places(law: &Law<'_>, instance: &Instance<'_>, case: &Case, answers: [&Answers; 2], statuses: &[i32]) -> Judged<()> {
-    let about = &law.about;
-    for (point, status) in statuses.iter().copied().enumerate() {
-        let alone = match status {
-            // Looked at where it is read anyway.
-            WL_OK if point < AHEAD && case.count > AHEAD => continue,
-            _ => ask(about, instance, &case.single(point), &Layout::plain(about)).status,
-        };
-        if alone != status {
-            let what = format!("point {point} of {} has another status than alone", case.count);
-            let finding = Finding::new(what).at(case.named(about, point));
-            return broken(finding.with(format!("status {status}"), format!("status {alone}")));
-        }
-    }
-    for answers in answers {
-        let is_bad = |first: i64| usize::try_from(first).is_ok_and(|at| statuses.get(at).is_some_and(|s| *s != WL_OK));
-        if answers.status != WL_OK && answers.first_bad != -1 && !is_bad(answers.first_bad) {
-            let finding = Finding::new("`first_bad` is no point that is bad").at(case.named(about, 0));
-            let expected = "the index of a bad point, or -1 as before the call";
-            return broken(finding.with(format!("first_bad {}", answers.first_bad), expected));
-        }
-        if answers.status == WL_CUT_STEP && !(0.0..1.0).contains(&answers.dt_factor) {
-            let finding = Finding::new("a shorter substep is asked for by a factor that shortens none");
-            let found = format!("dt_factor {}", number_text(answers.dt_factor));
-            return broken(finding.with(found, "in (0, 1), or 0 as before the call").at(case.named(about, 0)));
-        }
-    }
-    Ok(())
 }

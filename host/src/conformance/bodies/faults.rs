@@ -71,6 +71,10 @@ pub(super) fn odd_points(law: &LawDescriptor, ordinary: &Case) -> Vec<Case> {
             cases.push(ordinary.map(|point| point.inputs[index] = value));
         }
     }
+    // A product that overflows, of numbers each of which is one.
+    cases.push(ordinary.map(|point| {
+        law.fields().iter().filter(|field| field.shape() == Shape::Scalar).for_each(|field| point.set(field, 0, 1e300));
+    }));
     cases
 }
 

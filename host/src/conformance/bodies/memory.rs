@@ -21,11 +21,12 @@ fn over_sizes(
 ) -> Judged {
     bench.with(|law, instance| {
         let about = &law.about;
-        let good = bench.good(law, instance, 16)?;
+        let goods = bench.goods(law, instance, 16)?;
         let known = bench.known_constants(law);
         let mut sampler = bench.sampler(law, &known);
         let mut calls = 0;
-        let cases = COUNTS.iter().map(|count| good.repeated(*count)).chain(odd_cases(&mut sampler, about, 10));
+        let sizes = goods.iter().flat_map(|good| COUNTS.iter().map(|count| good.repeated(*count)));
+        let cases = sizes.chain(odd_cases(&mut sampler, about, 10));
         for case in cases {
             for asked in Asked::ways(about) {
                 look(law, instance, &case, &Layout { asked, ..layout(about) })?;

@@ -19,6 +19,7 @@ mod memory;
 mod physics;
 mod spread;
 mod state;
+mod statuses;
 mod structs;
 mod temperature;
 mod threads;
@@ -91,7 +92,7 @@ pub(super) fn run(check: Check, bench: &Bench) -> Judged {
         Check::BatchStridedFields => spread::strided_fields(bench),
         Check::BatchPerPointConstants => spread::per_point_constants(bench),
         Check::BatchStridedConstants => spread::strided_constants(bench),
-        Check::BatchStatus => batch::status_array(bench),
+        Check::BatchStatus => statuses::status_array(bench),
         Check::MemoryAfter => memory::after(bench),
         Check::MemoryBefore => memory::before(bench),
         Check::MemoryInputs => memory::inputs(bench),

@@ -18,8 +18,18 @@ pub(crate) enum Room {
 const PADDING: usize = 1024;
 const ALIGNMENT: usize = 64;
 
+/// Address space that arrays with guards are cut from: a call has some thirty, and to map each by itself takes its time.
+struct Region {
+    first: *mut u8,
+    length: usize,
+    used: usize,
+}
+
+/// Pages of a region, more than the arrays of a small call take.
+const PAGES: usize = 256;
+
 struct Block {
-    /// Of the whole mapping or allocation.
+    /// Of the allocation, or of the pages with the guards around them.
     first: *mut u8,
     length: usize,
     /// Of the pages that hold the array.
@@ -35,13 +45,15 @@ pub(crate) struct Arrays {
     /// Bytes by which plain arrays are moved away from a multiple of [`ALIGNMENT`].
     skew: usize,
     blocks: Vec<Block>,
+    regions: Vec<Region>,
     watched: usize,
 }
 
 impl Arrays {
     /// No arrays yet; plain ones will begin `skew` bytes, below [`ALIGNMENT`], behind the start of a cache line.
     pub(crate) fn new(room: Room, skew: usize) -> Self {
-        Self { room, skew: skew % ALIGNMENT, blocks: Vec::new(), watched: fault_note::watched() }
+        let (blocks, regions) = (Vec::new(), Vec::new());
+        Self { room, skew: skew % ALIGNMENT, blocks, regions, watched: fault_note::watched() }
     }
 
     /// Makes a zeroed array of so many bytes.
@@ -72,15 +84,10 @@ impl Arrays {
         let page = page_size();
         let data = bytes.div_ceil(page) * page;
         let length = data + 2 * page;
-        // SAFETY: asks for fresh memory anywhere; the result is checked.
-        let first = unsafe {
-            libc::mmap(std::ptr::null_mut(), length, libc::PROT_NONE, libc::MAP_PRIVATE | libc::MAP_ANONYMOUS, -1, 0)
-        };
-        assert!(first != libc::MAP_FAILED, "{length} bytes of memory: {}", std::io::Error::last_os_error());
-        let first = first.cast::<u8>();
+        let first = self.reserve(length);
         let pages = first.wrapping_add(page);
         if data > 0 {
-            // SAFETY: the range lies in the fresh mapping.
+            // SAFETY: the range lies in what was just reserved.
             let done = unsafe { libc::mprotect(pages.cast(), data, libc::PROT_READ | libc::PROT_WRITE) };
             assert_eq!(done, 0, "{}", std::io::Error::last_os_error());
         }
@@ -90,6 +97,22 @@ impl Arrays {
         fault_note::watch(first as usize, first as usize + length, at, at + bytes, &name);
         self.blocks.push(Block { first, length, pages: (pages, data), read_only, name });
         start
+    }
+
+    /// Address space of so many bytes, whole pages that nobody may touch yet.
+    fn reserve(&mut self, length: usize) -> *mut u8 {
+        if self.regions.last().is_none_or(|region| region.length - region.used < length) {
+            let whole = length.max(PAGES * page_size());
+            let (access, kind) = (libc::PROT_NONE, libc::MAP_PRIVATE | libc::MAP_ANONYMOUS);
+            // SAFETY: asks for fresh memory anywhere; the result is checked.
+            let first = unsafe { libc::mmap(std::ptr::null_mut(), whole, access, kind, -1, 0) };
+            assert!(first != libc::MAP_FAILED, "{whole} bytes of memory: {}", std::io::Error::last_os_error());
+            self.regions.push(Region { first: first.cast(), length: whole, used: 0 });
+        }
+        let region = self.regions.last_mut().expect("one was just made if there was none");
+        let first = region.first.wrapping_add(region.used);
+        region.used += length;
+        first
     }
 
     /// Lets nobody write to the arrays that are for reading only; only arrays with guards can be sealed.
@@ -105,19 +128,15 @@ impl Arrays {
 impl Drop for Arrays {
     fn drop(&mut self) {
         fault_note::forget_from(self.watched);
-        for block in &self.blocks {
-            match self.room {
-                Room::Plain => {
-                    let layout = std::alloc::Layout::from_size_align(block.length, ALIGNMENT);
-                    let layout = layout.expect("it was allocated with the same");
-                    // SAFETY: `place_plain` allocated it with this layout, and nothing refers to it any more.
-                    unsafe { std::alloc::dealloc(block.first, layout) };
-                }
-                Room::GuardBehind | Room::GuardBefore => {
-                    // SAFETY: `place_guarded` mapped exactly this, and nothing refers to it any more.
-                    unsafe { libc::munmap(block.first.cast(), block.length) };
-                }
-            }
+        for block in self.blocks.iter().filter(|_| self.room == Room::Plain) {
+            let layout = std::alloc::Layout::from_size_align(block.length, ALIGNMENT);
+            let layout = layout.expect("it was allocated with the same");
+            // SAFETY: `place_plain` allocated it with this layout, and nothing refers to it any more.
+            unsafe { std::alloc::dealloc(block.first, layout) };
+        }
+        for region in &self.regions {
+            // SAFETY: `reserve` mapped exactly this, and nothing refers to it any more.
+            unsafe { libc::munmap(region.first.cast(), region.length) };
         }
     }
 }
@@ -143,6 +162,21 @@ mod tests {
             assert_eq!(arrays.place("a", bytes, false) as usize % page, 0, "{bytes}");
         }
         assert_eq!(fault_note::watched(), 0);
+    }
+
+    #[test]
+    fn arrays_with_guards_share_no_page() {
+        let page = page_size();
+        let (mut arrays, mut ranges) = (Arrays::new(Room::GuardBehind, 0), Vec::new());
+        for bytes in [8, 3 * page, 0, PAGES * page, 24] {
+            let end = arrays.place("a", bytes, false) as usize + bytes;
+            ranges.push((end - bytes.div_ceil(page) * page - page, end + page));
+        }
+        for (at, one) in ranges.iter().enumerate() {
+            let apart = |other: &(usize, usize)| one.1 <= other.0 || other.1 <= one.0;
+            assert!(ranges[at + 1..].iter().all(apart), "{ranges:x?}");
+        }
+        assert_eq!(arrays.regions.len(), 3, "a large array has a region of its own, and what follows another");
     }
 
     #[test]
