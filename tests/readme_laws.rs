@@ -20,6 +20,23 @@ fn shell(folder: &Path, command: &str) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
+/// A law that a reader copies is one that may be given to others.
+fn passes_the_check(folder: &Path, name: &str) {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_wearlaw"));
+    let output = program.args(["check", "law.so", "--quick", "-q"]).current_dir(folder).output().expect("it starts");
+    assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stdout));
+}
+
+#[test]
+fn the_law_on_the_first_page_passes_the_check() {
+    let text = std::fs::read_to_string(native::root().join("README.md")).expect("README.md is there");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let source = folder.path().join("law.c");
+    std::fs::write(&source, blocks(&text, "c")[0]).expect("a writable folder");
+    native::try_compile(&source, &native::include(), &folder.path().join("law.so"), &[]).expect("it compiles");
+    passes_the_check(folder.path(), "README.md");
+}
+
 #[test]
 fn the_laws_of_the_readme_build_and_run_as_printed() {
     let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
@@ -40,6 +57,7 @@ fn the_laws_of_the_readme_build_and_run_as_printed() {
         assert!(said.starts_with("my-archard: status 0, increment 2.5"), "{name}: {said}");
         let value: f64 = said.trim().rsplit(' ').next().and_then(|w| w.parse().ok()).expect("a number");
         assert!((value - 2.5e-9).abs() < 1e-23, "{name}: {said}");
+        passes_the_check(folder.path(), name);
         std::fs::remove_file(folder.path().join("law.so")).expect("it was built");
     }
 }
@@ -55,6 +73,7 @@ fn the_law_in_rust_builds_and_answers_as_printed() {
     std::fs::write(folder.path().join("try.c"), blocks(&text, "c")[2]).expect("a writable folder");
     let said = shell(folder.path(), blocks(&text, "sh")[3]);
     assert!(said.starts_with("my-archard: status 0, increment 2.5"), "{said}");
+    passes_the_check(folder.path(), "the law in Rust");
 }
 
 #[test]
