@@ -12,7 +12,7 @@ use wearlaw::scene::ScalingKind;
 use wearlaw_plugin_api::abi::{Quantity, WL_OK};
 
 use crate::abi::{Constants, Description, Outputs, Solver, Source, Step, WLH_ABI_MINOR};
-use crate::boundary::{Answer, aligned, answer, array, count, done, read, text as text_of, write};
+use crate::boundary::{aligned, answer, array, count, done, read, text as text_of, write};
 use crate::error::HostError;
 use crate::evaluate::told;
 use crate::handle::Handle;
@@ -47,11 +47,41 @@ unsafe fn surface<'a>(pointer: *const SurfaceHandle) -> Result<&'a Handle<Surfac
     unsafe { Handle::find(pointer.cast()) }
 }
 
+/// Does something with an open law, and answers.
+///
+/// # Safety
+/// As for [`Handle::find`] and [`answer`].
+unsafe fn on_law(
+    pointer: *const LawHandle,
+    (text, text_size): (*mut c_char, i64),
+    act: impl FnOnce(&OpenLaw) -> Result<(), HostError>,
+) -> i32 {
+    // SAFETY: as the caller says.
+    unsafe { answer(text, text_size, || act(&*law_of(pointer)?).and_then(done)) }
+}
+
+/// Does something with a surface that no other thread is using, and answers.
+///
+/// # Safety
+/// As for [`Handle::find`] and [`answer`].
+unsafe fn on_surface(
+    pointer: *const SurfaceHandle,
+    (text, text_size): (*mut c_char, i64),
+    act: impl FnOnce(&mut Surface) -> Result<(), HostError>,
+) -> i32 {
+    // SAFETY: as the caller says.
+    unsafe { answer(text, text_size, || act(surface(pointer)?.take_turn()?.get()?).and_then(done)) }
+}
+
 /// Puts a handle where the solver wants it.
 ///
 /// # Safety
 /// `place` is NULL or leads to a pointer that can be written.
-unsafe fn give<T>(place: *mut *mut T, what: &'static str, make: impl FnOnce() -> Result<*mut T, HostError>) -> Answer {
+unsafe fn give<T>(
+    place: *mut *mut T,
+    what: &'static str,
+    make: impl FnOnce() -> Result<*mut T, HostError>,
+) -> Result<(), HostError> {
     if place.is_null() {
         return Err(HostError::Null(what));
     }
@@ -61,7 +91,7 @@ unsafe fn give<T>(place: *mut *mut T, what: &'static str, make: impl FnOnce() ->
     let handle = make()?;
     // SAFETY: as above.
     unsafe { *place = handle };
-    done()
+    Ok(())
 }
 
 /// Minor version of this interface; the major version is in the name of `wlh_open_1`.
@@ -89,7 +119,7 @@ pub unsafe extern "C" fn wlh_open_1(
         unsafe { give(law, "law", open) }
     };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { answer(text, text_size, || body().and_then(done)) }
 }
 
 /// Says what a law is: name, fields, outputs, numbers of constants and state variables.
@@ -100,13 +130,8 @@ pub unsafe extern "C" fn wlh_describe(
     text: *mut c_char,
     text_size: i64,
 ) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        unsafe { write(description, &law_of(law)?.description()) }?;
-        done()
-    };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_law(law, (text, text_size), |law| write(description, &law.description())) }
 }
 
 /// Says what a constant, state variable or further input is: `kind` WL_KIND_CONSTANT, _STATE or _INPUT, `index` from 0.
@@ -120,13 +145,8 @@ pub unsafe extern "C" fn wlh_quantity(
     text: *mut c_char,
     text_size: i64,
 ) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        unsafe { write(quantity, &law_of(law)?.quantity(kind, index)?) }?;
-        done()
-    };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_law(law, (text, text_size), |law| write(quantity, &law.quantity(kind, index)?)) }
 }
 
 /// Takes the warnings since the last call, a line each, into `text`: what a law changed that was put back.
@@ -139,13 +159,8 @@ pub unsafe extern "C" fn wlh_warnings(law: *const LawHandle, text: *mut c_char, 
 /// Closes a law; it goes when its last surface is closed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn wlh_close_law(handle: *mut LawHandle, text: *mut c_char, text_size: i64) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        unsafe { law(handle) }?.close()?;
-        done()
-    };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { answer(text, text_size, || law(handle)?.close().and_then(done)) }
 }
 
 /// Makes a surface of `points` points, which may be 0. Constants and state variables have their defaults.
@@ -164,7 +179,7 @@ pub unsafe extern "C" fn wlh_open_surface(
         unsafe { give(surface, "surface", make) }
     };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { answer(text, text_size, || body().and_then(done)) }
 }
 
 /// Sets the law's constants, or a table of them over time and temperature; they are copied.
@@ -175,9 +190,9 @@ pub unsafe extern "C" fn wlh_set_constants(
     text: *mut c_char,
     text_size: i64,
 ) -> i32 {
-    let body = || {
+    let act = |surface: &mut Surface| {
         // SAFETY: as the module says.
-        let (mut held, given) = unsafe { (surface(handle)?.take_turn()?, read(constants)?) };
+        let given = unsafe { read(constants) }?;
         let number = count("wlh_constants.count", given.count)?;
         // SAFETY: as the module says.
         let (values, times, temperatures) = unsafe {
@@ -188,8 +203,7 @@ pub unsafe extern "C" fn wlh_set_constants(
             )
         };
         if given.names.is_null() {
-            held.get()?.set_constants(None, values, times, temperatures, number)?;
-            return done();
+            return surface.set_constants(None, values, times, temperatures, number);
         }
         // SAFETY: as the module says.
         let names = unsafe { array(given.names, given.count, "wlh_constants.names") }?;
@@ -198,11 +212,10 @@ pub unsafe extern "C" fn wlh_set_constants(
             unsafe { text_of(*pointer, "wlh_constants.names") }?.ok_or(HostError::Null("wlh_constants.names"))
         };
         let names = names.iter().map(name).collect::<Result<Vec<_>, _>>()?;
-        held.get()?.set_constants(Some(&names), values, times, temperatures, number)?;
-        done()
+        surface.set_constants(Some(&names), values, times, temperatures, number)
     };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_surface(handle, (text, text_size), act) }
 }
 
 /// Says where a field is: `length` numbers from `values` on, `step` numbers from one point to the next (0: one value
@@ -217,14 +230,9 @@ pub unsafe extern "C" fn wlh_set_field(
     text: *mut c_char,
     text_size: i64,
 ) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        let mut held = unsafe { surface(handle) }?.take_turn()?;
-        held.get()?.set_reals(field_of(field)?, (values, length, step))?;
-        done()
-    };
+    let act = |surface: &mut Surface| surface.set_reals(field_of(field)?, (values, length, step));
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_surface(handle, (text, text_size), act) }
 }
 
 /// As wlh_set_field, for fields of integers: WL_FIELD_CONTACT_STATE, _POINT_ID and _ELEMENT_ID.
@@ -238,14 +246,9 @@ pub unsafe extern "C" fn wlh_set_index_field(
     text: *mut c_char,
     text_size: i64,
 ) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        let mut held = unsafe { surface(handle) }?.take_turn()?;
-        held.get()?.set_integers(field_of(field)?, (values, length, step))?;
-        done()
-    };
+    let act = |surface: &mut Surface| surface.set_integers(field_of(field)?, (values, length, step));
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_surface(handle, (text, text_size), act) }
 }
 
 /// As wlh_set_field, for a further input that the law declares by name.
@@ -259,16 +262,13 @@ pub unsafe extern "C" fn wlh_set_input(
     text: *mut c_char,
     text_size: i64,
 ) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        let mut held = unsafe { surface(handle) }?.take_turn()?;
+    let act = |surface: &mut Surface| {
         // SAFETY: as the module says.
         let name = unsafe { text_of(name, "name") }?.ok_or(HostError::Null("name"))?;
-        held.get()?.set_input(name, (values, length, step))?;
-        done()
+        surface.set_input(name, (values, length, step))
     };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_surface(handle, (text, text_size), act) }
 }
 
 /// Sets the state variables at the start of the substep, `length` numbers `[points][state_count]`; they are copied.
@@ -280,15 +280,8 @@ pub unsafe extern "C" fn wlh_set_state(
     text: *mut c_char,
     text_size: i64,
 ) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        let mut held = unsafe { surface(handle) }?.take_turn()?;
-        // SAFETY: as the module says.
-        held.get()?.set_state(unsafe { array(values, length, "values") }?)?;
-        done()
-    };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_surface(handle, (text, text_size), |surface| surface.set_state(array(values, length, "values")?)) }
 }
 
 /// Copies the state variables as they were committed into `length` numbers `[points][state_count]`.
@@ -300,12 +293,10 @@ pub unsafe extern "C" fn wlh_get_state(
     text: *mut c_char,
     text_size: i64,
 ) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        let mut held = unsafe { surface(handle) }?.take_turn()?;
-        let state = held.get()?.state(length)?;
+    let act = |surface: &mut Surface| {
+        let state = surface.state(length)?;
         if state.is_empty() {
-            return done();
+            return Ok(());
         }
         if values.is_null() {
             return Err(HostError::Null("values"));
@@ -313,10 +304,10 @@ pub unsafe extern "C" fn wlh_get_state(
         aligned(values, "values", "an array of doubles")?;
         // SAFETY: as the module says; the length was found to be that of the state.
         unsafe { std::ptr::copy(state.as_ptr(), values, state.len()) };
-        done()
+        Ok(())
     };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_surface(handle, (text, text_size), act) }
 }
 
 /// Evaluates the law over a substep, from the state at its start. Answers WL_OK, WL_UNRELIABLE (the values may be used),
@@ -356,37 +347,26 @@ pub unsafe extern "C" fn wlh_evaluate(
 /// Takes the last good evaluation: its state at the end is the state at the start of the next substep.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn wlh_commit(handle: *mut SurfaceHandle, text: *mut c_char, text_size: i64) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        unsafe { surface(handle) }?.take_turn()?.get()?.commit()?;
-        done()
-    };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_surface(handle, (text, text_size), Surface::commit) }
 }
 
 /// Forgets the evaluations since the last commit. Evaluating again without it does the same.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn wlh_roll_back(handle: *mut SurfaceHandle, text: *mut c_char, text_size: i64) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        unsafe { surface(handle) }?.take_turn()?.get()?.roll_back();
-        done()
+    let act = |surface: &mut Surface| {
+        surface.roll_back();
+        Ok(())
     };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { on_surface(handle, (text, text_size), act) }
 }
 
 /// Closes a surface. What is kept of it is a few words, so that a use of it after this is an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn wlh_close_surface(handle: *mut SurfaceHandle, text: *mut c_char, text_size: i64) -> i32 {
-    let body = || {
-        // SAFETY: as the module says.
-        unsafe { surface(handle) }?.close()?;
-        done()
-    };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { answer(text, text_size, || surface(handle)?.close().and_then(done)) }
 }
 
 /// The factor on the represented time of a substep or cycle, clamp(safety / change, 1, maximum), where the wear of an
@@ -422,8 +402,8 @@ pub unsafe extern "C" fn wlh_scaling_factor(
         let plan = ScalingPlan { kind: ScalingKind::default(), safety, maximum };
         // SAFETY: as the module says.
         unsafe { *factor = plan.factor(change) };
-        done()
+        Ok(())
     };
     // SAFETY: as the module says.
-    unsafe { answer(text, text_size, body) }
+    unsafe { answer(text, text_size, || body().and_then(done)) }
 }
