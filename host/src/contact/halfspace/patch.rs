@@ -106,12 +106,13 @@ impl Patch<'_> {
             averaged_twice(self.counts, self.wraps, &field, &mut smooth);
             out.iter_mut().enumerate().for_each(|(cell, out)| *out += self.local(cell) * smooth[cell]);
         } else {
-            let uniform = self.local[0];
-            let varies = self.varies();
-            for (value, cell) in values.iter().zip(&set.cells) {
-                let cell = *cell as usize;
-                out[cell] += if varies { self.local[cell] } else { uniform } * value;
-            }
+            set.in_rows(self.threads, self.counts[0], out, |group, out| {
+                let first = group.rows.start * self.counts[0];
+                for (cell, value) in set.cells[group.cells.clone()].iter().zip(&values[group.cells]) {
+                    let cell = *cell as usize;
+                    out[cell - first] += self.local(cell) * value;
+                }
+            });
         }
     }
 
