@@ -90,10 +90,13 @@ impl Bench {
     pub(super) fn goods(&self, law: &Law<'_>, instance: &Instance<'_>, count: usize) -> Judged<Vec<Case>> {
         let mut cases = vec![self.good(law, instance, count)?];
         if law.about.constants.iter().any(|constant| constant.default.is_some()) {
-            let known = self.known_constants(law);
-            let mut sampler = self.sampler(law, &known);
-            sampler.at_defaults = true;
-            cases.extend(sampler.good(instance, count));
+            let at_defaults = |known: &[Vec<f64>]| {
+                let mut sampler = self.sampler(law, known);
+                sampler.at_defaults = true;
+                sampler.good(instance, count)
+            };
+            // Those of a table may all be far from ordinary, and a law may have a way of its own for ordinary ones.
+            cases.extend(at_defaults(&[]).or_else(|| at_defaults(&self.known_constants(law))));
         }
         Ok(cases)
     }
