@@ -227,7 +227,8 @@
 #define WL_CLAIM_NON_NEGATIVE 2
 
 /*
- Claim bit. At fixed rates the increment is proportional to `dt` (slip and friction work scale with it).
+ Claim bit. At fixed rates a substep wears as much as its equal parts, one after the other: without state variables, the
+ increment is proportional to `dt` (slip and friction work scale with it).
  */
 #define WL_CLAIM_LINEAR_IN_DT 4
 

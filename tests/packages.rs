@@ -48,6 +48,7 @@ fn the_crates_it_needs_are_packaged_too() {
     let crates = [
         ("wearlaw-plugin-api", "src/abi/views.rs"),
         ("wearlaw-archard", "src/lib.rs"),
+        ("wearlaw-contact", "src/halfspace/solve.rs"),
         ("wearlaw-transforms", "src/real.rs"),
     ];
     for (name, file) in crates {

@@ -14,6 +14,11 @@ fn blocks<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
     text.split(&fence).skip(1).map(|rest| rest.split("```").next().expect("a block ends")).collect()
 }
 
+/// The block of a language that has this text in it.
+fn block_with<'a>(text: &'a str, language: &str, marker: &str) -> &'a str {
+    blocks(text, language).into_iter().find(|block| block.contains(marker)).expect("the page has such a block")
+}
+
 fn shell(folder: &Path, command: &str) -> String {
     let output = Command::new("sh").arg("-c").arg(command).current_dir(folder).output().expect("a shell");
     assert!(output.status.success(), "{command}\n{}", String::from_utf8_lossy(&output.stderr));
@@ -49,7 +54,7 @@ fn the_laws_of_the_readme_build_and_run_as_printed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     std::os::unix::fs::symlink(native::include().canonicalize().expect("include/"), folder.path().join("include"))
         .expect("a writable folder");
-    std::fs::write(folder.path().join("try.c"), c[2]).expect("a writable folder");
+    std::fs::write(folder.path().join("try.c"), block_with(&text, "c", "dlopen")).expect("a writable folder");
     for (name, source, command) in laws {
         std::fs::write(folder.path().join(name), source).expect("a writable folder");
         shell(folder.path(), command);
@@ -70,10 +75,53 @@ fn the_law_in_rust_builds_and_answers_as_printed() {
     std::fs::rename(library, folder.path().join("law.so")).expect("a writable folder");
     std::os::unix::fs::symlink(native::include().canonicalize().expect("include/"), folder.path().join("include"))
         .expect("a writable folder");
-    std::fs::write(folder.path().join("try.c"), blocks(&text, "c")[2]).expect("a writable folder");
+    std::fs::write(folder.path().join("try.c"), block_with(&text, "c", "dlopen")).expect("a writable folder");
     let said = shell(folder.path(), blocks(&text, "sh")[3]);
     assert!(said.starts_with("my-archard: status 0, increment 2.5"), "{said}");
     passes_the_check(folder.path(), "the law in Rust");
+}
+
+#[test]
+fn the_law_with_a_state_passes_the_check_and_answers_alike_however_time_is_cut() {
+    let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let source = folder.path().join("law.c");
+    std::fs::write(&source, block_with(&text, "c", "my-running-in")).expect("a writable folder");
+    native::try_compile(&source, &native::include(), &folder.path().join("law.so"), &[]).expect("it compiles");
+    // K_inf s + (K_0 - K_inf) s_0 (1 - exp(-s / s_0)), over H and times p: 5e7 * (1e-5 + 9e-5 * 0.1 (1 - exp(-10))) / 2e9.
+    let whole = 5e7 / 2e9 * (1e-5 + 9e-6 * -(-10.0_f64).exp_m1());
+    let half = 5e7 / 2e9 * (5e-6 + 9e-6 * -(-5.0_f64).exp_m1());
+    let rows = format!(
+        "K_0,K_inf,s_0,H,pressure,slip,distance_start,increment,distance_end\n\
+         1e-4,1e-5,0.1,2e9,5e7,1,0,{whole:e},1\n1e-4,1e-5,0.1,2e9,5e7,0.5,0,{half:e},0.5\n\
+         1e-4,1e-5,0.1,2e9,5e7,0.5,0.5,{rest:e},1\n1e-4,1e-5,0.1,2e9,0,0.5,0.5,0,1\n",
+        rest = whole - half
+    );
+    std::fs::write(folder.path().join("expected.csv"), rows).expect("a writable folder");
+    passes_the_check(folder.path(), "the law with a state");
+}
+
+#[test]
+fn units_are_named_alike_in_all_languages() {
+    let read = |file: &str| std::fs::read_to_string(native::include().join(file)).expect("a file of include/");
+    let (text, c, cpp, fortran) =
+        (read("README.md"), read("wearlaw_point.h"), read("wearlaw.hpp"), read("wearlaw.f90").to_lowercase());
+    let rust = std::fs::read_to_string(native::root().join("plugin-api/src/sdk/about.rs")).expect("the Rust side");
+    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| `WL_") && line.contains("Unit::")).collect();
+    let declared =
+        c.lines().filter(|line| line.strip_prefix("#define ").is_some_and(|l| l.contains(" WL_SI("))).count();
+    assert_eq!(rows.len(), declared, "the page has every unit of wearlaw_point.h");
+    for row in rows {
+        let cells: Vec<&str> = row.split('|').map(|cell| cell.trim().trim_matches('`')).collect();
+        let [_, in_c, in_cpp, in_fortran, in_rust, exponents, _] = cells[..] else { panic!("{row}") };
+        let floats: Vec<String> = exponents.split(", ").map(|exponent| format!("{exponent}.0")).collect();
+        let floats = floats.join(", ").replace("-0.0", "0.0");
+        assert!(c.contains(&format!("#define {in_c} WL_SI({exponents})\n")), "{row}");
+        assert!(cpp.contains(&format!("constexpr Unit {in_cpp}{{{exponents}}};")), "{row}");
+        assert!(fortran.contains(&format!("parameter :: {in_fortran} = ")), "{row}");
+        let name = in_rust.trim_start_matches("Unit::");
+        assert!(rust.contains(&format!("pub const {name}: Unit = Unit::new({floats});")), "{row}");
+    }
 }
 
 #[test]

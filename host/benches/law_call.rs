@@ -28,7 +28,7 @@ fn main() {
     let library = laws::archard();
     let archard = laws::load(&library);
     if wanted("calls") {
-        calls(&archard, &RawLaw::open(&library), &laws::in_c(folder.path()));
+        calls(&archard, &RawLaw::open(&library), [&laws::in_c(folder.path()), &laws::in_rust(folder.path())]);
     }
     if wanted("memory") {
         memory(&archard);
@@ -48,8 +48,11 @@ fn main() {
 #[inline(always)]
 fn inlined(constants: &[f64; 2], p: &[f64], v: &[f64], w: &mut [f64]) {
     let c = constants[0] / constants[1] * DT;
-    for (w, (p, v)) in w.iter_mut().zip(p.iter().zip(v)) {
-        *w = c * p * v;
+    let n = w.len();
+    let (p, v) = (&p[..n], &v[..n]);
+    #[allow(clippy::needless_range_loop)] // reason: making a zip is a call, as its code lies in another unit
+    for i in 0..n {
+        w[i] = c * p[i] * v[i];
     }
 }
 
@@ -81,9 +84,9 @@ fn evaluate_again(calls: usize, law: &dyn Evaluator, batch: &Batch<'_>, w: &mut 
 }
 
 /// Loaded laws against the loop inlined.
-fn calls(archard: &LawInstance, raw_archard: &RawLaw, c_library: &std::path::Path) {
+fn calls(archard: &LawInstance, raw_archard: &RawLaw, [c_library, rust_library]: [&std::path::Path; 2]) {
     let (c, raw_c) = (laws::load(c_library), RawLaw::open(c_library));
-    let (rust, raw_rust) = (laws::created_in_rust(), RawLaw::of(laws::in_rust));
+    let (rust, raw_rust) = (laws::load(rust_library), RawLaw::open(rust_library));
     let rounds = if is_measured() { 301 } else { 1 };
     println!("\nlinear law, loaded against inlined: least ns per point of {rounds} rounds (ratio to inlined)");
     println!("raw: through the ABI's function; host: LawInstance::evaluate, with guard and checks");

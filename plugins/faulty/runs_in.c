@@ -1,5 +1,5 @@
 /*
- * Rule broken: claimed: the increment is proportional to dt.
+ * Rule broken: claimed: a substep wears as much as its equal parts.
  * The wear coefficient falls with the distance, so that one long substep wears more than two short ones.
  */
 #define LAW_NAME "runs-in"

@@ -1,15 +1,12 @@
-//! Linear Archard in three forms: the loaded library `archard`, a law in C through the point-wise helper, and one in
-//! Rust through the point-wise helper.
-#![allow(unsafe_code)] // reason: vouches for an entry function.
+//! Linear Archard in three forms, each a library: `archard`, a law in C through the point-wise helper, and one in Rust
+//! through the point-wise helper.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use wearlaw::law::build::{BuildRequest, build};
-use wearlaw::law::{Embedded, LawInstance, LoadOptions, Plugin};
-use wearlaw_plugin_api::abi;
-use wearlaw_plugin_api::sdk::export;
-use wearlaw_plugin_api::sdk::prelude::*;
+use wearlaw::law::{LawInstance, LoadOptions, Plugin};
+
+use super::rust_law;
 
 const C_LAW: &str = r#"
 #define LAW_NAME "linear-c"
@@ -24,28 +21,8 @@ WL_POINT {
 }
 "#;
 
-/// The library `archard`, built beside this program.
-pub fn archard() -> PathBuf {
-    let program = std::env::current_exe().expect("the path of this program");
-    let folder = program.parent().expect("a program lies in a folder");
-    let name = format!("{}wearlaw_archard{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    folder.join(name)
-}
-
-/// Compiles the law in C to a library in `folder`.
-pub fn in_c(folder: &Path) -> PathBuf {
-    let source = folder.join("linear.c");
-    std::fs::write(&source, C_LAW).expect("a temporary folder can be written");
-    let request =
-        BuildRequest { sources: vec![source], output: Some(folder.join("linear.so")), ..BuildRequest::default() };
-    build(&request).expect("a C compiler").library
-}
-
-/// Opens the only law of a library.
-pub fn load(path: &Path) -> LawInstance {
-    let plugin = Plugin::open(path, &LoadOptions::default()).expect("a law that was just built");
-    plugin.laws()[0].create(None).expect("it has no objections")
-}
+const RUST_LAW: &str = r#"
+use wearlaw_plugin_api::sdk::prelude::*;
 
 struct Linear;
 
@@ -67,20 +44,33 @@ impl PointLaw for Linear {
     }
 }
 
-/// The entry of the law in Rust.
-///
-/// # Safety
-/// As for any entry of a law.
-pub unsafe extern "C" fn in_rust(index: i32, host: *const abi::Host, law: *mut abi::LawTable) -> i32 {
-    let exporter = export::Exporter { version: "1.0.0", description: "" };
-    // SAFETY: the caller keeps the ABI's contract of an entry.
-    unsafe { export::entry(&[export::fill::<Linear>], exporter, index, host, law) }
+export_laws!(Linear);
+"#;
+
+/// The library `archard`, built beside this program.
+pub fn archard() -> PathBuf {
+    let program = std::env::current_exe().expect("the path of this program");
+    let folder = program.parent().expect("a program lies in a folder");
+    let name = format!("{}wearlaw_archard{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    folder.join(name)
 }
 
-/// The law in Rust, created.
-pub fn created_in_rust() -> LawInstance {
-    // SAFETY: the function is made of what `export_laws!` is made of, which keeps the contract.
-    let entry = Arc::new(unsafe { Embedded::new("bench", in_rust) });
-    let plugin = Plugin::from_entry(entry).expect("a law that is well formed");
+/// Compiles the law in C to a library in `folder`.
+pub fn in_c(folder: &Path) -> PathBuf {
+    let source = folder.join("linear.c");
+    std::fs::write(&source, C_LAW).expect("a temporary folder can be written");
+    let request =
+        BuildRequest { sources: vec![source], output: Some(folder.join("linear.so")), ..BuildRequest::default() };
+    build(&request).expect("a C compiler").library
+}
+
+/// Compiles the law in Rust to a library in `folder`.
+pub fn in_rust(folder: &Path) -> PathBuf {
+    rust_law::try_build(RUST_LAW, &folder.join("rust")).expect("the law compiles")
+}
+
+/// Opens the only law of a library.
+pub fn load(path: &Path) -> LawInstance {
+    let plugin = Plugin::open(path, &LoadOptions::default()).expect("a law that was just built");
     plugin.laws()[0].create(None).expect("it has no objections")
 }

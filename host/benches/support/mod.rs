@@ -7,5 +7,7 @@
 pub mod laws;
 pub mod processor;
 pub mod raw;
+#[path = "../../../tests/support/rust_law.rs"]
+pub mod rust_law;
 pub mod scenes;
 pub mod timing;

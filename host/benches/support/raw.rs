@@ -23,11 +23,6 @@ impl RawLaw {
         // SAFETY: the symbol has this type by the ABI.
         let entry = unsafe { *library.get::<EntryFn>(b"wearlaw_entry_1").expect("a law") };
         std::mem::forget(library);
-        RawLaw::of(entry)
-    }
-
-    /// The law of an entry function.
-    pub fn of(entry: EntryFn) -> RawLaw {
         // SAFETY: all-zero bytes are a host that gives nothing, and a table and texts that are empty.
         let (host, mut table) = unsafe { (std::mem::zeroed::<abi::Host>(), std::mem::zeroed::<abi::LawTable>()) };
         table.struct_size = size_of::<abi::LawTable>() as i64;

@@ -356,10 +356,11 @@ First steps:
 
 Exit codes:
     0  done
-    1  the thing checked falls short (a check failed, a bar in the scene was missed)
-    2  the input is wrong: arguments, scene, command file, sources, not a law
+    1  the thing checked falls short: a check failed, or the error is above the scene's bar
+    2  the input is wrong: arguments, scene, input deck, sources, or a file that is no law
     3  the law failed: a bad status, a crash, a hang, a broken contract
-    4  the numbers failed: no convergence, an instability refused
+    4  the numbers failed: a tolerance that cannot be met, or explicit steps beyond their
+       stability limit
     5  reading or writing failed
    70  a fault of wearlaw itself
   130  interrupted; what was done so far is written

@@ -300,7 +300,7 @@ Physics {
     PhysicsZeroWithoutSlip "physics/zero-without-slip" quick "claimed: no slip, no wear"
         ["Claims"] "WL_CLAIM_ZERO_WITHOUT_SLIP: no slip, no wear";
     PhysicsLinearInDt "physics/linear-in-dt" quick "claimed: one substep wears as much as k equal parts of it"
-        ["Claims"] "WL_CLAIM_LINEAR_IN_DT: at fixed rates the increment is proportional to dt";
+        ["Claims"] "WL_CLAIM_LINEAR_IN_DT: at fixed rates a substep wears as much as its equal parts, one after the other";
     PhysicsPressureDegree "physics/pressure-degree" quick "claimed: pressure times f gives increment times f^d"
         ["Claims"] "pressure degree d: pressure times f gives increment times f^d";
     PhysicsFrame "physics/frame" quick "claimed: turning the frame turns the direction and leaves the increment"

@@ -175,7 +175,7 @@ names! {
     Deterministic = abi::WL_CLAIM_DETERMINISTIC, "deterministic";
     /// The wear increment is never negative.
     NonNegative = abi::WL_CLAIM_NON_NEGATIVE, "non_negative";
-    /// At fixed rates the increment is proportional to `dt`.
+    /// At fixed rates a substep wears as much as its equal parts, one after the other.
     LinearInDt = abi::WL_CLAIM_LINEAR_IN_DT, "linear_in_dt";
     /// No pressure, no wear.
     ZeroWithoutPressure = abi::WL_CLAIM_ZERO_WITHOUT_PRESSURE, "zero_without_pressure";

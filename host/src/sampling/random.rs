@@ -1,6 +1,6 @@
 //! Random numbers that are the same on every machine for the same seed.
 
-use crate::splitmix::{STEP, mixed};
+use crate::contact::splitmix::{STEP, mixed};
 
 /// SplitMix64: one word of state, good enough to pick inputs.
 #[derive(Clone, Debug)]

@@ -62,11 +62,16 @@ fn largest_lanes(values: &[f64]) -> f64 {
     let (strips, rest) = values.as_chunks::<16>();
     let mut lanes = [0.0; 16];
     for strip in strips {
-        for (most, value) in lanes.iter_mut().zip(strip) {
-            *most = more(*most, *value);
+        #[allow(clippy::needless_range_loop)] // reason: a zip in here is a call, as its code lies in another unit
+        for lane in 0..16 {
+            lanes[lane] = more(lanes[lane], strip[lane]);
         }
     }
-    lanes.into_iter().chain(rest.iter().copied()).fold(0.0, more)
+    let mut most = 0.0;
+    for value in lanes.iter().chain(rest) {
+        most = more(most, *value);
+    }
+    most
 }
 
 #[cfg(test)]

@@ -58,7 +58,8 @@ pub const WL_OUTS_KNOWN: i64 = 15;
 pub const WL_CLAIM_DETERMINISTIC: i64 = 1;
 /// Claim bit. The wear increment is never negative.
 pub const WL_CLAIM_NON_NEGATIVE: i64 = 2;
-/// Claim bit. At fixed rates the increment is proportional to `dt` (slip and friction work scale with it).
+/// Claim bit. At fixed rates a substep wears as much as its equal parts, one after the other: without state variables, the
+/// increment is proportional to `dt` (slip and friction work scale with it).
 pub const WL_CLAIM_LINEAR_IN_DT: i64 = 4;
 /// Claim bit. No pressure, no wear.
 pub const WL_CLAIM_ZERO_WITHOUT_PRESSURE: i64 = 8;

@@ -43,20 +43,38 @@ impl Unit {
     pub const NUMBER: Unit = Unit::new(0.0, 0.0, 0.0, 0.0);
     /// Length.
     pub const METRE: Unit = Unit::new(1.0, 0.0, 0.0, 0.0);
+    /// Per length.
+    pub const PER_METRE: Unit = Unit::new(-1.0, 0.0, 0.0, 0.0);
+    /// Area.
+    pub const SQUARE_METRE: Unit = Unit::new(2.0, 0.0, 0.0, 0.0);
+    /// Mass.
+    pub const KILOGRAM: Unit = Unit::new(0.0, 1.0, 0.0, 0.0);
     /// Time.
     pub const SECOND: Unit = Unit::new(0.0, 0.0, 1.0, 0.0);
+    /// Rate, frequency.
+    pub const PER_SECOND: Unit = Unit::new(0.0, 0.0, -1.0, 0.0);
     /// Temperature difference.
     pub const KELVIN: Unit = Unit::new(0.0, 0.0, 0.0, 1.0);
     /// Per degree of temperature.
     pub const PER_KELVIN: Unit = Unit::new(0.0, 0.0, 0.0, -1.0);
+    /// Force.
+    pub const NEWTON: Unit = Unit::new(1.0, 1.0, -2.0, 0.0);
+    /// Work, activation energy.
+    pub const JOULE: Unit = Unit::new(2.0, 1.0, -2.0, 0.0);
     /// Pressure, stress, hardness.
     pub const PASCAL: Unit = Unit::new(-1.0, 1.0, -2.0, 0.0);
     /// Specific wear rate (volume per force and distance).
     pub const PER_PASCAL: Unit = Unit::new(1.0, -1.0, 2.0, 0.0);
+    /// Change of a pressure with the temperature.
+    pub const PASCAL_PER_KELVIN: Unit = Unit::new(-1.0, 1.0, -2.0, -1.0);
     /// Sliding velocity.
     pub const METRE_PER_SECOND: Unit = Unit::new(1.0, 0.0, -1.0, 0.0);
     /// Work per area.
     pub const JOULE_PER_SQUARE_METRE: Unit = Unit::new(0.0, 1.0, -2.0, 0.0);
+    /// Heat flux.
+    pub const WATT_PER_SQUARE_METRE: Unit = Unit::new(0.0, 1.0, -3.0, 0.0);
+    /// Density.
+    pub const KILOGRAM_PER_CUBIC_METRE: Unit = Unit::new(-3.0, 1.0, 0.0, 0.0);
 
     /// A unit from its SI exponents.
     pub const fn new(metre: f64, kilogram: f64, second: f64, kelvin: f64) -> Unit {

@@ -88,7 +88,7 @@ impl Point {
     #[inline(always)]
     pub fn constants<const N: usize>(&self) -> [f64; N] {
         assert!(N == self.counts[0], "{N} constants asked for, {} declared", self.counts[0]);
-        core::array::from_fn(|k| self.constants[k])
+        first(&self.constants)
     }
     /// The further inputs, in the declared order.
     ///
@@ -97,7 +97,7 @@ impl Point {
     #[inline(always)]
     pub fn inputs<const N: usize>(&self) -> [f64; N] {
         assert!(N == self.counts[1], "{N} inputs asked for, {} declared", self.counts[1]);
-        core::array::from_fn(|k| self.inputs[k])
+        first(&self.inputs)
     }
     /// The state variables at the start of the substep, in the declared order.
     ///
@@ -106,8 +106,16 @@ impl Point {
     #[inline(always)]
     pub fn state<const N: usize>(&self) -> [f64; N] {
         assert!(N == self.counts[2], "{N} state variables asked for, {} declared", self.counts[2]);
-        core::array::from_fn(|k| self.state[k])
+        first(&self.state)
     }
+}
+
+/// The first numbers of an array. A loop, as a closure is a call where a crate is compiled without inlining across its units.
+#[inline(always)]
+fn first<const N: usize>(all: &[f64]) -> [f64; N] {
+    let mut some = [0.0; N];
+    some.copy_from_slice(&all[..N]);
+    some
 }
 
 /// What a law answers at one point; preset to no wear, against the normal, with the state as it was.
@@ -215,7 +223,7 @@ fn ask<T: PointLaw>(
         point_id: WL_FIELD_POINT_ID get, element_id: WL_FIELD_ELEMENT_ID get);
     let mut out = PointAnswer {
         increment: 0.0,
-        direction: here.normal.map(|component| -component),
+        direction: [-here.normal[0], -here.normal[1], -here.normal[2]],
         state: here.state,
         d_pressure: 0.0,
         dt_factor: 0.0,

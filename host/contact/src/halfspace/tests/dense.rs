@@ -1,7 +1,7 @@
 //! Random small problems against a dense solver that changes one cell at a time.
 
 use super::*;
-use crate::contact::corners_and_back;
+use crate::corners_and_back;
 
 /// Solves a square system by elimination with the largest pivot of each column.
 fn eliminate(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {

@@ -1,5 +1,5 @@
 use super::{fault, file, pressure_and_velocity, values};
-use crate::contact::prescribed::{Column, Header, History, Layout, Motion, Needs, PointIds, RowView, Samples};
+use crate::prescribed::{Column, Header, History, Layout, Motion, Needs, PointIds, RowView, Samples};
 use proptest::prelude::*;
 use proptest::sample::Index;
 

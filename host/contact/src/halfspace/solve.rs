@@ -9,12 +9,12 @@ use super::scaled::Scaled;
 use super::search::{Accuracy, Outcome, search};
 use super::window::{Extent, Window};
 use super::{Boundary, HalfSpace, frozen};
-use crate::contact::{ContactError, Control, Problem, Solution};
+use crate::{ContactError, Control, Problem, Solution};
 
 /// Windows that are tried before all cells are taken.
 const MOST_WINDOWS: usize = 6;
 
-/// Solves a problem; see [`crate::contact::ContactModel::solve`].
+/// Solves a problem; see [`crate::ContactModel::solve`].
 pub fn solve(model: &mut HalfSpace, problem: &Problem<'_>, pressure: &mut [f64]) -> Result<Solution, ContactError> {
     let scaled = Scaled::new(problem, &model.cells, model.modulus_unit / model.length)?;
     if scaled.idle || (problem.frozen.is_none() && scaled.sum.is_some_and(|sum| sum <= 0.0)) {

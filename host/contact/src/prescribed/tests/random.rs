@@ -1,5 +1,5 @@
 use super::file;
-use crate::contact::prescribed::{Column, History, Needs};
+use crate::prescribed::{Column, History, Needs};
 use proptest::prelude::*;
 
 fn all() -> Needs {

@@ -1,11 +1,11 @@
 //! The SplitMix64 generator, for numbers that are the same on every machine.
 
 /// What is added to the state in a step.
-pub(crate) const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
+pub const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// One step (G. L. Steele, D. Lea and C. H. Flood, OOPSLA 2014): the state is advanced by [`STEP`] and mixed, so that
 /// neighbouring states give unrelated bits.
-pub(crate) fn mixed(state: u64) -> u64 {
+pub fn mixed(state: u64) -> u64 {
     let z = state.wrapping_add(STEP);
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -4,7 +4,7 @@ mod roughness;
 mod shapes;
 
 use super::{Shape, Surface, SurfaceError};
-use crate::contact::Cells;
+use crate::Cells;
 
 fn cells(counts: [usize; 2], spacing: [f64; 2]) -> Cells {
     Cells { dimension: 3, counts, spacing }

@@ -5,7 +5,7 @@ use super::convolve::{Convolution, Dense};
 use super::kernel::Kernel;
 use super::passes::{add, change};
 use super::room::Room;
-use crate::contact::averaged_twice;
+use crate::averaged_twice;
 
 /// A problem on a window, in scaled units, gaps counted from the datum of the problem.
 pub struct Patch<'a> {

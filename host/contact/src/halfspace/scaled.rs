@@ -3,7 +3,7 @@
 //! The units are powers of two, so the bits of the answer do not depend on the units of the scene as long as those
 //! differ by powers of two, and nothing overflows that does not overflow in the answer.
 
-use crate::contact::{Cells, ContactError, Control, Diagonal, Problem};
+use crate::{Cells, ContactError, Control, Diagonal, Problem};
 
 /// The largest power of two that is not above a positive number.
 pub fn power_of_two(value: f64) -> f64 {

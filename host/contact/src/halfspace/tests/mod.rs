@@ -7,7 +7,7 @@ mod units;
 mod windows;
 
 use super::*;
-use crate::contact::{Control, Diagonal};
+use crate::{Control, Diagonal};
 
 /// Numbers in (0, 1) that look random.
 pub struct Numbers(u64);

@@ -51,8 +51,8 @@ impl Archive<'_> {
         let mut members = Vec::with_capacity(zip.len());
         for index in 0..zip.len() {
             let mut entry = zip.by_index(index).map_err(|e| archive_fault(path, &e))?;
-            let name = entry.name().map_err(|e| archive_fault(path, &e))?.into_owned();
-            let name = name.strip_suffix(".npy").unwrap_or(&name).to_string();
+            let name = entry.name();
+            let name = name.strip_suffix(".npy").unwrap_or(name).to_string();
             let (size, packed) = (entry.size(), entry.compressed_size());
             let stored = entry.compression() == zip::CompressionMethod::Stored && size == packed;
             let start = entry.data_start().filter(|_| stored);

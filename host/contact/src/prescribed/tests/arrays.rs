@@ -1,5 +1,5 @@
 use super::{fault, file, values};
-use crate::contact::prescribed::{Column, Header, History, Layout, Needs, PointIds, Samples};
+use crate::prescribed::{Column, Header, History, Layout, Needs, PointIds, Samples};
 use std::io::{Cursor, Write};
 use zip::CompressionMethod::{self, Deflated, Stored};
 use zip::write::SimpleFileOptions;

@@ -1,4 +1,6 @@
-//! Contact pressure from load and gap, one module per contact model.
+//! Contact pressure from load and gap, one module per contact model, and the generator that rough surfaces are drawn with
+//! ([`splitmix`]).
+//!
 //! Here are the prescribed model, whose pressure and motion are data read from a history, and the models that answer
 //! back: the initial gap that they start from ([`surface`]), what they are asked ([`Problem`]), what they answer
 //! ([`Solution`]) and the trait they share ([`ContactModel`]).
@@ -12,6 +14,7 @@ mod npy;
 pub mod prescribed;
 mod problem;
 mod root_mean;
+pub mod splitmix;
 pub mod surface;
 mod traction;
 
@@ -19,7 +22,6 @@ pub use cells::Cells;
 pub use error::ContactError;
 pub use npy::ArrayFault;
 pub use problem::{ContactModel, Control, Diagonal, Problem, Solution};
-pub(crate) use root_mean::RootMean;
-pub(crate) use traction::averaged_twice;
-pub use traction::{corners_and_back, nodal_traction};
+pub use root_mean::RootMean;
+pub use traction::{averaged_twice, corners_and_back, nodal_traction};
 pub use wearlaw_transforms::{INSTRUCTIONS_VARIABLE, Instructions, InstructionsError};

@@ -4,7 +4,7 @@ use super::Boundary;
 use super::convolve::Convolution;
 use super::influence;
 use super::symbol::Quarter;
-use crate::contact::Instructions;
+use crate::Instructions;
 
 /// The compliance of equal cells in scaled units.
 #[derive(Clone, Debug)]
