@@ -10,8 +10,6 @@ pub const INSTRUCTIONS_VARIABLE: &str = "WEARLAW_INSTRUCTIONS";
 pub enum Instructions {
     /// What every processor of the kind has, one number at a time.
     Baseline,
-    /// SSE 4.1: two numbers at a time, x86-64.
-    Sse41,
     /// AVX2 with fused multiply-add: four numbers at a time, x86-64.
     Avx2,
     /// Two numbers at a time, aarch64.
@@ -27,15 +25,13 @@ pub struct InstructionsError {
 }
 
 impl Instructions {
-    const ALL: [Instructions; 4] =
-        [Instructions::Baseline, Instructions::Sse41, Instructions::Avx2, Instructions::Neon];
+    const ALL: [Instructions; 3] = [Instructions::Baseline, Instructions::Avx2, Instructions::Neon];
 
     /// Its name in the variable, in reports and in checkpoints.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Instructions::Baseline => "baseline",
-            Instructions::Sse41 => "sse4.1",
             Instructions::Avx2 => "avx2",
             Instructions::Neon => "neon",
         }
@@ -46,8 +42,6 @@ impl Instructions {
     pub fn is_here(self) -> bool {
         match self {
             Instructions::Baseline => true,
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Sse41 => is_x86_feature_detected!("sse4.1"),
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
             #[cfg(target_arch = "aarch64")]

@@ -20,10 +20,6 @@ pub fn complex(set: Instructions, length: usize, direction: FftDirection) -> Arc
     let planned = match set {
         #[cfg(target_arch = "x86_64")]
         Instructions::Avx2 => rustfft::FftPlannerAvx::new().ok().map(|mut planner| planner.plan_fft(length, direction)),
-        #[cfg(target_arch = "x86_64")]
-        Instructions::Sse41 => {
-            rustfft::FftPlannerSse::new().ok().map(|mut planner| planner.plan_fft(length, direction))
-        }
         #[cfg(target_arch = "aarch64")]
         Instructions::Neon => {
             rustfft::FftPlannerNeon::new().ok().map(|mut planner| planner.plan_fft(length, direction))
