@@ -26,7 +26,7 @@
 
 /* What the law does at one point: in (fields), c (constants), s (state), out (answer). */
 WL_POINT {
-    if (in->pressure > 0.0) {
+    if (!(in->pressure <= 0.0)) { /* a pressure that is no number comes in here, too */
         double q = in->pressure / (1.0 + in->pressure / c->p_half);
         out->increment = c->k * q * in->slip;
     } /* else: no pressure, no wear; the increment is preset to 0 */

@@ -32,7 +32,7 @@ contains
     type(wl_out), intent(inout) :: out
     integer(c_int32_t) :: status
     real(c_double) :: q
-    if (in%pressure > 0) then
+    if (.not. in%pressure <= 0) then ! a pressure that is no number comes in here, too
       q = in%pressure / (1 + in%pressure / c(2))
       out%increment = c(1) * q * in%slip
     end if ! else: no pressure, no wear; the increment is preset to 0

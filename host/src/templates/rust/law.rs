@@ -41,7 +41,7 @@ impl About for TheLaw {
 impl PointLaw for TheLaw {
     fn point(&self, at: &Point, out: &mut PointAnswer) -> Status {
         let [k, p_half] = at.constants();
-        if at.pressure > 0.0 {
+        if at.pressure > 0.0 || at.pressure.is_nan() {
             let q = at.pressure / (1.0 + at.pressure / p_half);
             out.increment = k * q * at.slip;
         } // else: no pressure, no wear; the increment is preset to 0
