@@ -7,7 +7,7 @@ mod error;
 #[cfg(target_os = "linux")]
 mod parent;
 #[cfg(target_os = "linux")]
-pub(crate) mod process;
+pub mod process;
 #[cfg(target_os = "linux")]
 mod protocol;
 #[cfg(target_os = "linux")]

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use crate::law::build::Language;
+use crate::build::Language;
 
 /// What a file looks like that is not a shared library.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -11,7 +11,7 @@ use super::entry::{Embedded, Entry};
 pub const NAMES: &[&str] = &["archard"];
 
 /// The entry function of a law of this program.
-pub(crate) fn function(name: &str) -> Option<abi::EntryFn> {
+pub fn function(name: &str) -> Option<abi::EntryFn> {
     match name {
         "archard" => Some(wearlaw_archard::wearlaw_entry_1),
         _ => None,
@@ -28,7 +28,7 @@ pub fn entry(name: &str) -> Option<Arc<dyn Entry>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::Plugin;
+    use crate::Plugin;
 
     #[test]
     fn every_name_has_an_entry_with_a_law_of_that_name() {

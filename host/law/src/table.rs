@@ -11,7 +11,7 @@ use super::descriptor::LawDescriptor;
 use super::entry::Entry;
 
 /// What this host says of itself to every law.
-pub(crate) fn this_host() -> &'static abi::Host {
+pub fn this_host() -> &'static abi::Host {
     static HOST: OnceLock<abi::Host> = OnceLock::new();
     HOST.get_or_init(|| abi::Host {
         struct_size: size_of::<abi::Host>() as i64,
@@ -24,7 +24,7 @@ pub(crate) fn this_host() -> &'static abi::Host {
 }
 
 /// A NUL-terminated text in a fixed array, cut where it does not fit.
-pub(crate) fn chars<const SIZE: usize>(text: &str) -> [c_char; SIZE] {
+pub fn chars<const SIZE: usize>(text: &str) -> [c_char; SIZE] {
     let mut array = [0; SIZE];
     for (place, byte) in array.iter_mut().take(SIZE - 1).zip(text.bytes()) {
         *place = c_char::from_ne_bytes([byte]);
@@ -33,7 +33,7 @@ pub(crate) fn chars<const SIZE: usize>(text: &str) -> [c_char; SIZE] {
 }
 
 /// A table as the host hands it to an entry: zeroed, with its size and presets.
-pub(crate) fn preset_table() -> abi::LawTable {
+pub fn preset_table() -> abi::LawTable {
     abi::LawTable {
         struct_size: size_of::<abi::LawTable>() as i64,
         abi_minor: 0,
@@ -60,7 +60,7 @@ pub(crate) fn preset_table() -> abi::LawTable {
 }
 
 /// A quantity as the host hands it to `describe`: no bounds and no default.
-pub(crate) fn preset_quantity() -> abi::Quantity {
+pub fn preset_quantity() -> abi::Quantity {
     abi::Quantity {
         struct_size: size_of::<abi::Quantity>() as i64,
         name: [0; abi::WL_NAME_SIZE],

@@ -2,7 +2,7 @@
 
 use super::tests::write;
 use super::{BuildRequest, build};
-use crate::law::file_facts::FileFacts;
+use crate::file_facts::FileFacts;
 
 const MANIFEST: &str = "[package]\nname = \"my-law\"\nversion = \"0.1.0\"\nedition = \"2021\"\n[workspace]\n[lib]\n";
 

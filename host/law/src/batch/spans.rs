@@ -6,14 +6,14 @@ use super::columns::{advance, column_of, index_column_of};
 use super::{Batch, behind};
 
 /// The memory of one column, as raw 64-bit words, and words from point to point.
-pub(in crate::law) struct Span<'b> {
-    pub(in crate::law) words: &'b [u64],
-    pub(in crate::law) step: usize,
+pub(crate) struct Span<'b> {
+    pub(crate) words: &'b [u64],
+    pub(crate) step: usize,
 }
 
 impl Batch<'_> {
     /// Fields of the law in the order of their bits, constants, inputs and, if there are any, the state variables.
-    pub(in crate::law) fn spans(&self) -> Vec<Option<Span<'_>>> {
+    pub(crate) fn spans(&self) -> Vec<Option<Span<'_>>> {
         let law = self.descriptor();
         let mut view = self.store.view;
         let mut spans = Vec::new();

@@ -14,10 +14,10 @@ use super::descriptor::{Degree, LawDescriptor, Quantity};
 use super::fields::{Claims, Field, Fields, Flags, OutputItem, OutputItems};
 
 /// Asks the law to describe item `index` of `kind`: its answer and the struct it filled.
-pub(crate) type Ask<'f> = &'f mut dyn FnMut(i32, i64) -> (i32, abi::Quantity);
+pub type Ask<'f> = &'f mut dyn FnMut(i32, i64) -> (i32, abi::Quantity);
 
 /// Validates the table of one law; `ask` is its `describe` function, if it has one.
-pub(crate) fn describe(table: &abi::LawTable, mut ask: Option<Ask<'_>>) -> Result<LawDescriptor, DescribeError> {
+pub fn describe(table: &abi::LawTable, mut ask: Option<Ask<'_>>) -> Result<LawDescriptor, DescribeError> {
     let name = text(&table.name, "the law's name")?;
     if name.is_empty() || !name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"-_".contains(&byte)) {
         return Err(DescribeError::Name {

@@ -1,7 +1,7 @@
 //! Real builds of small sources.
 
 use super::{BuildError, BuildRequest, Compilers, build};
-use crate::law::file_facts::FileFacts;
+use crate::file_facts::FileFacts;
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -10,7 +10,7 @@ const ABSENT: abi::Column = abi::Column { ptr: std::ptr::null(), step: 0 };
 const NO_INDEX: abi::IndexColumn = abi::IndexColumn { ptr: std::ptr::null(), step: 0 };
 
 /// A view with the numbers of the call and no columns.
-pub(crate) fn blank_view(numbers: &CallNumbers, points: usize, law: &LawDescriptor) -> abi::View {
+pub fn blank_view(numbers: &CallNumbers, points: usize, law: &LawDescriptor) -> abi::View {
     abi::View {
         struct_size: size_of::<abi::View>() as i64,
         points: points as i64,
@@ -62,7 +62,7 @@ pub(crate) fn blank_view(numbers: &CallNumbers, points: usize, law: &LawDescript
 }
 
 /// The column of a real field.
-pub(crate) fn column_of(view: &mut abi::View, field: Field) -> Option<&mut abi::Column> {
+pub fn column_of(view: &mut abi::View, field: Field) -> Option<&mut abi::Column> {
     Some(match field {
         Field::Pressure => &mut view.pressure,
         Field::Slip => &mut view.slip,
@@ -86,7 +86,7 @@ pub(crate) fn column_of(view: &mut abi::View, field: Field) -> Option<&mut abi::
 }
 
 /// The column of an integer field.
-pub(crate) fn index_column_of(view: &mut abi::View, field: Field) -> Option<&mut abi::IndexColumn> {
+pub fn index_column_of(view: &mut abi::View, field: Field) -> Option<&mut abi::IndexColumn> {
     match field {
         Field::ContactState => Some(&mut view.contact_state),
         Field::PointId => Some(&mut view.point_id),

@@ -25,7 +25,7 @@ pub mod lookup;
 pub mod memory;
 mod number_text;
 mod streaming;
-pub(crate) mod table;
+pub mod table;
 pub mod values;
 
 pub use batch::{Batch, BatchBuilder, BatchError, Outputs};

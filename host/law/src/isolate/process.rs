@@ -13,7 +13,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A worker process; dropping it ends it and everything that it started.
-pub(crate) struct Process {
+pub struct Process {
     child: Child,
     /// Becomes readable when the process ends, even if a process that it started holds its pipes open.
     ended: Option<OwnedFd>,
@@ -23,18 +23,21 @@ pub(crate) struct Process {
 }
 
 /// Name of the variable that a worker and all that it starts bear; its value tells the worker.
-pub(crate) const FAMILY: &str = "WEARLAW_FAMILY";
+pub const FAMILY: &str = "WEARLAW_FAMILY";
 
 /// What came first.
-pub(crate) enum Event {
+pub enum Event {
+    /// There is something to read.
     Readable,
+    /// The process ended.
     Ended,
+    /// The time was up.
     Deadline,
 }
 
 impl Process {
     /// Starts `program` with inherited descriptors; what a law prints goes to `printed`.
-    pub(crate) fn start(
+    pub fn start(
         program: &Path,
         arguments: Vec<String>,
         inherited: Vec<RawFd>,
@@ -66,7 +69,7 @@ impl Process {
     }
 
     /// Waits until `pipe` can be read, the process ends or time is up.
-    pub(crate) fn wait_for(&self, pipe: RawFd, deadline: Duration) -> io::Result<Event> {
+    pub fn wait_for(&self, pipe: RawFd, deadline: Duration) -> io::Result<Event> {
         let end = Instant::now().checked_add(deadline);
         let watched = self.ended.as_ref().map_or(-1, AsRawFd::as_raw_fd);
         loop {
@@ -93,12 +96,12 @@ impl Process {
     }
 
     /// The number of the process.
-    pub(crate) fn id(&self) -> u32 {
+    pub fn id(&self) -> u32 {
         self.child.id()
     }
 
     /// How a process ended whose channel was closed; none if it still runs after `patience`. It is not ended here.
-    pub(crate) fn ended(&mut self, patience: Duration) -> Option<ExitStatus> {
+    pub fn ended(&mut self, patience: Duration) -> Option<ExitStatus> {
         // A process that dies closes its pipes a moment before it can be waited for.
         let patience = Instant::now() + patience;
         loop {
@@ -127,7 +130,7 @@ impl Process {
     }
 
     /// Ends the process and everything that it started, and reaps what can be reaped.
-    pub(crate) fn end(&mut self) {
+    pub fn end(&mut self) {
         let group = self.child.id() as libc::pid_t;
         let mut family = Vec::new();
         if self.status.is_none() {
@@ -177,12 +180,13 @@ impl Drop for Process {
 }
 
 /// Numbers of the processes that were started here and not yet ended; none is started while this is held.
-pub(crate) fn started() -> MutexGuard<'static, BTreeSet<u32>> {
+pub fn started() -> MutexGuard<'static, BTreeSet<u32>> {
     static STARTED: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
     STARTED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-pub(crate) fn signal(process: libc::pid_t, number: i32) {
+/// Sends a signal to a process of a worker's family, or with a negative number to a group.
+pub fn signal(process: libc::pid_t, number: i32) {
     // SAFETY: the call takes two integers; the process is a child that has not been waited for, one below it, or the
     // group that this module made for it.
     unsafe { libc::kill(process, number) };
@@ -200,7 +204,7 @@ const REAPING: Duration = Duration::from_secs(2);
 /// Takes the ended processes of a worker's family off the list: they are this process's children once it is gone.
 ///
 /// A negative number stands for a group.
-pub(crate) fn reap(mut left: Vec<libc::pid_t>) {
+pub fn reap(mut left: Vec<libc::pid_t>) {
     let patience = Instant::now() + REAPING;
     while !left.is_empty() && Instant::now() < patience {
         left.retain(|process| {
@@ -216,7 +220,8 @@ pub(crate) fn reap(mut left: Vec<libc::pid_t>) {
     }
 }
 
-pub(crate) fn descendants(process: libc::pid_t) -> Vec<libc::pid_t> {
+/// The processes below one, the nearest first, as far as they can be seen.
+pub fn descendants(process: libc::pid_t) -> Vec<libc::pid_t> {
     let mut found = Vec::new();
     let mut open = vec![process];
     while let Some(parent) = open.pop() {
@@ -281,7 +286,8 @@ fn spawn_from_lasting_thread(command: Command) -> io::Result<Child> {
     answered.recv().map_err(|_| gone())?
 }
 
-pub(crate) fn signal_name(number: i32) -> String {
+/// A signal by its number and name, with what it tells.
+pub fn signal_name(number: i32) -> String {
     let name = match number {
         libc::SIGSEGV => "SIGSEGV, it touched memory that is not its own",
         libc::SIGBUS => "SIGBUS",

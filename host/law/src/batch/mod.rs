@@ -20,7 +20,7 @@ mod spans;
 
 pub use builder::BatchBuilder;
 use columns::{advance, behind};
-pub(crate) use columns::{blank_view, column_of, index_column_of};
+pub use columns::{blank_view, column_of, index_column_of};
 pub use outputs::Outputs;
 
 /// Why a batch cannot be built.
