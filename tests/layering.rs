@@ -5,17 +5,12 @@ mod sources;
 
 use std::path::Path;
 
-/// Each top-level module and the others of the crate that it may name; `contact` and `law` are crates of their own.
-const MAY_USE: [(&str, &[&str]); 20] = [
-    ("scene", &[]),
-    ("reference", &[]),
-    ("contact", &[]),
-    ("record", &[]),
-    ("law", &[]),
-    ("sampling", &["law", "contact"]),
-    ("conformance", &["law", "reference", "sampling"]),
-    ("bench", &["law", "sampling"]),
+/// Each module of the program's own crate and the others that it may name; the crates below it are modules to it.
+const MAY_USE: [(&str, &[&str]); 14] = [
     ("apdl", &["scene"]),
+    ("reference", &[]),
+    ("record", &[]),
+    ("bench", &["law", "conformance"]),
     ("integrator", &["law", "contact"]),
     ("stability", &["law", "contact"]),
     ("plan", &["scene", "apdl", "law", "contact", "integrator", "reference"]),
@@ -27,32 +22,49 @@ const MAY_USE: [(&str, &[&str]); 20] = [
     ("templates", &["scene", "law"]),
     ("error", ALL_BUT_CLI),
     ("exit_code", ALL_BUT_CLI),
-    ("cli", EVERYTHING),
+];
+
+/// The module that may name all others.
+const TOP: &str = "cli";
+
+/// The crates below the program's own, as it names them.
+const CRATES: [&str; 4] = ["conformance", "contact", "law", "scene"];
+
+/// Each crate of `host` but the program's own, and the crates of this repository that it may need.
+const MAY_NEED: [(&str, &[&str]); 5] = [
+    ("transforms", &[]),
+    ("contact", &["transforms"]),
+    ("law", &["plugin-api", "archard"]),
+    ("scene", &[]),
+    // The contact models have the random numbers that it draws.
+    ("conformance", &["plugin-api", "law", "contact"]),
 ];
 
 const ALL_BUT_CLI: &[&str] = &[
-    "bench",
-    "scene",
-    "reference",
-    "conformance",
-    "sampling",
-    "contact",
-    "record",
-    "law",
     "apdl",
-    "integrator",
-    "stability",
-    "study",
-    "plan",
-    "solve",
-    "output",
-    "sweep",
-    "templates",
+    "bench",
+    "conformance",
+    "contact",
     "error",
     "exit_code",
+    "integrator",
+    "law",
+    "output",
+    "plan",
+    "record",
+    "reference",
+    "scene",
+    "solve",
+    "stability",
+    "study",
+    "sweep",
+    "templates",
 ];
 
-const EVERYTHING: &[&str] = ALL_BUT_CLI;
+/// Every module that the program's own crate names.
+fn modules() -> impl Iterator<Item = &'static str> {
+    MAY_USE.iter().map(|(module, _)| *module).chain([TOP]).chain(CRATES)
+}
 
 /// The crate's own modules in a line of code that starts at its root, and in braces behind it.
 fn named(code: &str) -> Vec<String> {
@@ -130,14 +142,14 @@ fn violations(path: &Path, text: &str) -> Vec<String> {
     let mut parts: Vec<String> = path.iter().map(|part| part.to_string_lossy().replace(".rs", "")).collect();
     parts.retain(|part| part != "mod");
     let own = parts[0].clone();
-    if own == "lib" || own == "main" {
+    if own == "lib" || own == "main" || own == TOP {
         return Vec::new();
     }
     let Some((_, allowed)) = MAY_USE.iter().find(|(module, _)| *module == own) else {
         return vec![format!("{}: module `{own}` has no place in the order of tests/layering.rs", path.display())];
     };
     let code = code_of(text);
-    let known = |word: &String| MAY_USE.iter().any(|(module, _)| module == word);
+    let known = |word: &String| modules().any(|module| module == word);
     // The types that the crate's root re-exports stand for their modules.
     let module = |word: String| match word.as_str() {
         "Error" => "error".to_owned(),
@@ -177,7 +189,7 @@ fn every_module_has_a_place_in_the_order() {
             name.strip_suffix(';')
         })
         .collect();
-    let mut known: Vec<&str> = MAY_USE.iter().map(|(module, _)| *module).collect();
+    let mut known: Vec<&str> = modules().collect();
     declared.sort_unstable();
     known.sort_unstable();
     assert_eq!(declared, known);
@@ -194,12 +206,39 @@ fn an_import_against_the_order_is_seen_however_it_is_written() {
     ] {
         assert_eq!(wrong("plan/needs.rs", text), ["plan/needs.rs: `plan` uses `cli`"], "{text}");
     }
-    assert_eq!(wrong("law/isolate/parent.rs", "use super::super::super::scene::Scene;").len(), 1);
-    assert_eq!(wrong("law/mod.rs", "use super::{plan, law};").len(), 1);
-    assert_eq!(wrong("scene/reader.rs", "use crate::Error;").len(), 1);
+    assert_eq!(wrong("output/html/page.rs", "use super::super::super::solve::run;").len(), 1);
+    assert_eq!(wrong("record/mod.rs", "use super::{plan, record};").len(), 1);
+    assert_eq!(wrong("plan/needs.rs", "use crate::Error;").len(), 1);
     assert_eq!(wrong("new_one/mod.rs", "").len(), 1);
     for text in ["use crate::scene::Scene;", "// use crate::cli::Console;", "use other_crate::cli;", "use super::cli;"]
     {
         assert!(wrong("plan/needs.rs", text).is_empty(), "{text}");
+    }
+}
+
+/// The crates of this repository that a manifest needs to be compiled.
+fn needed(manifest: &str) -> Vec<&str> {
+    let sections = manifest.split("\n[").filter_map(|section| section.strip_prefix("dependencies]\n"));
+    let lines = sections.flat_map(str::lines);
+    lines.filter_map(|line| line.strip_prefix("wearlaw-")?.split(['.', ' ']).next()).collect()
+}
+
+#[test]
+fn crates_need_only_those_below_them() {
+    let mut found: Vec<String> = std::fs::read_dir(sources::root().join("host"))
+        .expect("the sources are where this test looks")
+        .map(|entry| entry.expect("it can be listed").path())
+        .filter(|path| path.join("Cargo.toml").is_file())
+        .map(|path| path.file_name().expect("it has a name").to_string_lossy().into_owned())
+        // The library for C is above the program's own crate.
+        .filter(|name| name != "c")
+        .collect();
+    found.sort_unstable();
+    let mut known: Vec<&str> = MAY_NEED.iter().map(|(name, _)| *name).collect();
+    known.sort_unstable();
+    assert_eq!(found, known);
+    for (name, allowed) in MAY_NEED {
+        let manifest = sources::text(&Path::new("host").join(name).join("Cargo.toml")).expect("manifests are UTF-8");
+        assert_eq!(needed(&manifest), allowed, "{name}");
     }
 }

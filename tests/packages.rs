@@ -50,8 +50,10 @@ fn the_crates_it_needs_are_packaged_too() {
     let crates = [
         ("wearlaw-plugin-api", "src/abi/views.rs"),
         ("wearlaw-archard", "src/lib.rs"),
+        ("wearlaw-conformance", "src/runner.rs"),
         ("wearlaw-contact", "src/halfspace/solve.rs"),
         ("wearlaw-law", "src/loader.rs"),
+        ("wearlaw-scene", "src/document.rs"),
         ("wearlaw-transforms", "src/real.rs"),
     ];
     for (name, file) in crates {

@@ -10,7 +10,6 @@
 pub mod apdl;
 pub mod bench;
 pub mod cli;
-pub mod conformance;
 pub mod error;
 pub mod exit_code;
 pub mod integrator;
@@ -18,8 +17,6 @@ pub mod output;
 pub mod plan;
 pub mod record;
 pub mod reference;
-mod sampling;
-pub mod scene;
 pub mod solve;
 pub mod stability;
 pub mod study;
@@ -33,5 +30,7 @@ struct Embedding;
 
 pub use error::Error;
 pub use exit_code::ExitCode;
+pub use wearlaw_conformance as conformance;
 pub use wearlaw_contact as contact;
 pub use wearlaw_law as law;
+pub use wearlaw_scene as scene;

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::laid::Laid;
+use crate::conformance::sampling::known::Table;
+use crate::conformance::sampling::ulps::ulps;
 use crate::law::{Evaluation, Evaluator};
-use crate::sampling::known::Table;
-use crate::sampling::ulps::ulps;
 
 /// Digits that a table must have for its values to be known to the last place.
 const DIGITS: usize = 15;

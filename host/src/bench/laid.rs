@@ -1,12 +1,12 @@
 //! A call of a law laid out in arrays: what a host would hand over, and room for the answers.
 
+use crate::conformance::sampling::answer::AtPoint;
+use crate::conformance::sampling::points::Case;
 use crate::law::fields::Shape;
 use crate::law::{
     Batch, BatchError, CallNumbers, EvaluateError, Evaluation, Evaluator, Field, Fields, Indices, LawDescriptor,
     OutputItem, Outputs, Values,
 };
-use crate::sampling::answer::AtPoint;
-use crate::sampling::points::Case;
 
 use super::placed::Placed;
 
@@ -153,8 +153,8 @@ pub(super) enum AskError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::conformance::sampling::points::Point;
     use crate::law::{LawInstance, Plugin, embedded};
-    use crate::sampling::points::Point;
 
     fn archard() -> LawInstance {
         let plugin = Plugin::from_entry(embedded::entry("archard").unwrap()).unwrap();

@@ -22,9 +22,9 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+use crate::conformance::sampling::known::Expected;
 use crate::law::Source;
 use crate::law::isolate::DEADLINE;
-use crate::sampling::known::Expected;
 
 /// Points of a call unless the user says otherwise: a decade apart, the last beyond the caches of most machines.
 pub const POINTS: [usize; 8] = [1, 10, 100, 1000, 10_000, 100_000, 1_000_000, 4_000_000];

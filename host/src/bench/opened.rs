@@ -5,13 +5,13 @@ use std::time::{Duration, Instant};
 
 use super::laid::{AskError, Laid, bytes_per_point};
 use super::{Accuracy, BenchError, BenchOptions, LawReport, Subject};
+use crate::conformance::sampling::known::{Expected, SELFTEST, Table, selftest};
+use crate::conformance::sampling::points::Case;
+use crate::conformance::sampling::sample::{Answering, Sampler};
 use crate::law::{
     EvaluateError, Evaluation, Evaluator, Fields, IsolateError, IsolateOptions, IsolatedLaw, Law, LawInstance,
     LoadOptions, Plugin, Source, embedded,
 };
-use crate::sampling::known::{Expected, SELFTEST, Table, selftest};
-use crate::sampling::points::Case;
-use crate::sampling::sample::{Answering, Sampler};
 
 /// Different points of a call, so that no branch of a law is learnt by heart.
 const DIFFERENT: usize = 256;

@@ -109,6 +109,23 @@ impl Indices<'_> {
 }
 
 impl<'a> Batch<'a> {
+    /// Takes over the view of a call in place; none if it is shorter than this side's, or makes no sense.
+    ///
+    /// # Safety
+    /// As for [`Batch::new`].
+    #[inline(always)]
+    pub(crate) unsafe fn in_place(view: *const View) -> Option<Batch<'a>> {
+        if view.is_null() {
+            return None;
+        }
+        // SAFETY: the caller promises `struct_size` bytes, which begin with that number; a whole view is read in place.
+        let view = unsafe {
+            let given = usize::try_from((*view).struct_size).unwrap_or(0);
+            (given >= size_of::<View>()).then(|| &*view)?
+        };
+        (view.points >= 0).then_some(Batch { view })
+    }
+
     /// Takes over the view of a call; one that is shorter than this side's goes to `room` first.
     ///
     /// # Safety
@@ -119,12 +136,11 @@ impl<'a> Batch<'a> {
         if view.is_null() {
             return None;
         }
-        // SAFETY: the caller promises `struct_size` bytes; a view of the full size is read in place.
-        let view = unsafe {
+        // SAFETY: the caller promises `struct_size` bytes; of a shorter view that is what is copied.
+        unsafe {
             let given = usize::try_from((*view).struct_size).unwrap_or(0);
-            if given >= size_of::<View>() { &*view } else { Self::widened(view, given, room) }
-        };
-        (view.points >= 0).then_some(Batch { view })
+            Self::in_place(if given >= size_of::<View>() { view } else { Self::widened(view, given, room) })
+        }
     }
 
     /// A copy of a short view, in which everything that it does not have is absent.
@@ -138,7 +154,9 @@ impl<'a> Batch<'a> {
         // columns), and so is any prefix of one.
         unsafe {
             core::ptr::copy_nonoverlapping(view.cast::<u8>(), room.as_mut_ptr().cast::<u8>(), given);
-            room.assume_init_ref()
+            let room = room.assume_init_mut();
+            room.struct_size = size_of::<View>() as i64;
+            room
         }
     }
 

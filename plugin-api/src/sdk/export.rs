@@ -243,31 +243,43 @@ unsafe extern "C" fn create<T: Law>(
 }
 
 unsafe extern "C" fn evaluate<T: Law>(instance: *mut c_void, view: *const View, output: *mut Output) -> i32 {
-    let mut room = MaybeUninit::uninit();
     // SAFETY: the host promises that view and output are valid for the call, and gives the instance that `create` made.
-    let (law, batch) = unsafe { (instance.cast::<T>().as_ref(), Batch::new(view, &mut room)) };
-    let (Some(law), Some(batch)) = (law, batch) else { return WL_FAILED };
-    // SAFETY: as above; the slice is gone when the whole answer is made.
-    if let Some(increment) = unsafe { Answer::increments_alone(output, batch.points()) }
-        && let Ok(true) = catch_unwind(AssertUnwindSafe(|| law.increments(&batch, increment)))
-    {
-        return WL_OK;
+    unsafe {
+        if increments_alone::<T>(instance, view, output) { WL_OK } else { evaluate_any::<T>(instance, view, output) }
     }
-    // SAFETY: as above.
-    unsafe { evaluate_any(law, &batch, output) }
+}
+
+/// Lets a law that has a way of its own for it write the increments of a call that wants nothing else; whether it did.
+///
+/// It is apart from all else so that a call of one point sets up nothing that it does not need.
+///
+/// # Safety
+/// As for [`evaluate_any`].
+#[inline(always)]
+unsafe fn increments_alone<T: Law>(instance: *mut c_void, view: *const View, output: *mut Output) -> bool {
+    // SAFETY: the caller's promise, which covers the length of the increments.
+    unsafe {
+        let (Some(law), Some(batch)) = (instance.cast::<T>().as_ref(), Batch::in_place(view)) else { return false };
+        let Some(increment) = Answer::increments_alone(output, batch.points()) else { return false };
+        matches!(catch_unwind(AssertUnwindSafe(|| law.increments(&batch, increment))), Ok(true))
+    }
 }
 
 /// Evaluates a law with whatever is wanted.
 ///
 /// # Safety
-/// As for [`Answer::new`].
-#[inline]
-unsafe fn evaluate_any<T: Law>(law: &T, batch: &Batch<'_>, output: *mut Output) -> i32 {
-    // SAFETY: the caller keeps the contract of `Answer::new`.
+/// View and output are valid for the call, and the instance is one that `create` made.
+#[inline(never)]
+unsafe fn evaluate_any<T: Law>(instance: *mut c_void, view: *const View, output: *mut Output) -> i32 {
+    let mut room = MaybeUninit::uninit();
+    // SAFETY: the caller's promise.
+    let (law, batch) = unsafe { (instance.cast::<T>().as_ref(), Batch::new(view, &mut room)) };
+    let (Some(law), Some(batch)) = (law, batch) else { return WL_FAILED };
+    // SAFETY: as above, and the contract of `Answer::new` is a part of it.
     let Some(mut answer) = (unsafe { Answer::new(output, batch.points(), T::STATE.len()) }) else {
         return WL_FAILED;
     };
-    let status = match catch_unwind(AssertUnwindSafe(|| law.evaluate(batch, &mut answer))) {
+    let status = match catch_unwind(AssertUnwindSafe(|| law.evaluate(&batch, &mut answer))) {
         Ok(status) => status.max(answer.worst()),
         Err(payload) => {
             let words = payload.downcast_ref::<&str>().copied().map(str::to_owned);

@@ -98,10 +98,11 @@ impl Law for Archard {
     /// A linear law over columns of ordinary numbers, the common case.
     #[inline]
     fn increments(&self, batch: &Batch<'_>, increment: &mut [f64]) -> bool {
+        let Some(wide) = power::Wide::here() else { return false };
         let Some([k, h, 1.0, 1.0]) = batch.uniform_constants() else { return false };
         let (Some(pressure), Some(velocity)) = (batch.pressure(), batch.velocity()) else { return false };
         match (pressure.slice(), velocity.slice()) {
-            (Some(p), Some(v)) => power::steady(p, v, (k, h, batch.dt()), increment),
+            (Some(p), Some(v)) => power::steady(wide, p, v, (k, h, batch.dt()), increment),
             _ => false,
         }
     }

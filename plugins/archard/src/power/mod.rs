@@ -84,4 +84,4 @@ mod tests;
 
 pub use batch::{Column, Inputs, Instructions, increments, increments_by};
 pub use scale::Scale;
-pub use steady::steady;
+pub use steady::{Wide, steady};

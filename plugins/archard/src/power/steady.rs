@@ -5,6 +5,8 @@
 //! negative, infinite or not a number, so one maximum over all points tells of every increment.
 #![allow(unsafe_code)] // Loads and stores of four doubles; a call of functions compiled for AVX2 and FMA.
 
+use std::sync::atomic::{AtomicU8, Ordering};
+
 use super::scale::Scale;
 
 /// Upper half of infinity.
@@ -28,37 +30,67 @@ const LEAST: u64 = 0x2b2b_ff2f_0000_0000;
 /// If not, `out` holds nothing of use and [`increments`](super::increments) must answer.
 #[inline]
 #[must_use]
-pub fn steady(p: &[f64], v: &[f64], (k, h, dt): (f64, f64, f64), out: &mut [f64]) -> bool {
+pub fn steady(wide: Wide, p: &[f64], v: &[f64], (k, h, dt): (f64, f64, f64), out: &mut [f64]) -> bool {
     #[cfg(target_arch = "x86_64")]
     {
         // Bits of positive numbers are in order; those of negative ones and of no number lie above.
         let least = const { (1.0 / WIDE).to_bits() };
         let above = k.to_bits().wrapping_sub(least).max(h.to_bits().wrapping_sub(least));
         let above = above.max(dt.to_bits().wrapping_sub(least));
-        if above <= const { WIDE.to_bits() - (1.0 / WIDE).to_bits() }
-            && is_x86_feature_detected!("avx2")
-            && is_x86_feature_detected!("fma")
-        {
-            // SAFETY: the processor has just been asked for both features.
+        if above <= const { WIDE.to_bits() - (1.0 / WIDE).to_bits() } {
+            // SAFETY: a `Wide` says that the processor has both features.
             return unsafe {
                 match out.len() {
-                    0..LANES => steady_few(p, v, k, h, dt, out),
+                    0..LANES => singly(p, v, factor(k, h, dt), out),
                     _ => steady_avx2(p, v, k, h, dt, out),
                 }
             };
         }
     }
-    let _ = (p, v, k, h, dt, out, WIDE);
+    let _ = (wide, p, v, k, h, dt, out, WIDE);
     false
 }
 
-/// [`steady`] for usual constants and a few points, point by point; whether all of them are usual.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn steady_few(p: &[f64], v: &[f64], k: f64, h: f64, dt: f64, out: &mut [f64]) -> bool {
-    singly(p, v, Scale::value_of_usual(k, h, dt), out)
+/// A processor that has AVX2 and FMA.
+#[derive(Clone, Copy, Debug)]
+pub struct Wide(());
+
+impl Wide {
+    /// Whether this processor is one. The answer is kept as one number: to ask for two takes a nanosecond more.
+    #[inline(always)]
+    #[must_use]
+    pub fn here() -> Option<Self> {
+        match KNOWN.load(Ordering::Relaxed) {
+            UNKNOWN => Self::ask(),
+            known => (known == YES).then_some(Self(())),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn ask() -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        let both = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+        #[cfg(not(target_arch = "x86_64"))]
+        let both = false;
+        KNOWN.store(if both { YES } else { NO }, Ordering::Relaxed);
+        both.then_some(Self(()))
+    }
 }
 
+static KNOWN: AtomicU8 = AtomicU8::new(UNKNOWN);
+const UNKNOWN: u8 = 0;
+const NO: u8 = 1;
+const YES: u8 = 2;
+
+/// The factor for usual constants. It alone needs to be compiled for a processor's feature where there are few points.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn factor(k: f64, h: f64, dt: f64) -> f64 {
+    Scale::value_of_usual(k, h, dt)
+}
+
+/// [`steady`] with the factor given, for a few points, one by one; whether all of them are usual.
 #[inline(always)]
 fn singly(p: &[f64], v: &[f64], c: f64, out: &mut [f64]) -> bool {
     let mut good = true;

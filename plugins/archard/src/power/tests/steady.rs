@@ -1,11 +1,11 @@
 //! The quick path of m = n = 1: the same bits as the general one, and nothing let through that it must not answer.
 
 use super::{Instructions, Law, Sequence, bits};
-use crate::power::{increments, steady};
+use crate::power::{Wide, increments, steady};
 
 fn quick(law: &Law, p: &[f64], v: &[f64]) -> (bool, Vec<f64>) {
     let mut out = vec![f64::NAN; p.len()];
-    let good = steady(p, v, (law.k, law.h, law.dt), &mut out);
+    let good = Wide::here().is_some_and(|wide| steady(wide, p, v, (law.k, law.h, law.dt), &mut out));
     (good, out)
 }
 

@@ -1,0 +1,243 @@
+//! The derivative with respect to the pressure, against differences of the increment, and where it jumps.
+
+use super::super::harness::call::{Asked, Layout};
+use super::super::harness::points::{Case, number_text};
+use super::super::harness::subject::{Instance, Law};
+use super::super::message::{Judged, Verdict, broken, skip};
+use super::super::outcome::Finding;
+use super::bench::{Bench, Differences, POINTS, ask, still_good};
+use wearlaw_law::{Field, Flag, OutputItem};
+
+/// Good points of a law that writes the derivative.
+fn good(bench: &Bench, law: &Law<'_>, instance: &Instance<'_>) -> Judged<Case> {
+    if !law.writes(OutputItem::DPressure) {
+        return skip("missing: the law writes no derivative, so hosts use a difference quotient");
+    }
+    bench.good(law, instance, POINTS)
+}
+
+/// Increment and derivative of one point at another pressure; none if the law refuses it.
+fn at_pressure(law: &Law<'_>, instance: &Instance<'_>, case: &Case, pressure: f64) -> Option<(f64, f64)> {
+    let case = case.map(|point| point.set(Field::Pressure, 0, pressure));
+    let answers = ask(&law.about, instance, &case, &Layout::plain(&law.about));
+    answers.is_good().then(|| (answers.increment[0], answers.d_pressure[0]))
+}
+
+/// A derivative from differences, and an estimate of its error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Estimate {
+    value: f64,
+    error: f64,
+}
+
+/// Central differences with steps that shrink by 1.4, extrapolated to step 0 (Ridders, Adv. Eng. Software 4 (1982)
+/// 75-76); the error is the change by the last extrapolation plus what rounding of the values does.
+fn ridders(function: impl Fn(f64) -> Option<f64>, at: f64, first: f64) -> Option<Estimate> {
+    const SHRINK: f64 = 1.4;
+    let mut best: Option<Estimate> = None;
+    let mut last: Vec<f64> = Vec::new();
+    let mut step = first;
+    for _ in 0..12 {
+        let (high, low) = (function(at + step)?, function(at - step)?);
+        let rounding = f64::EPSILON * (high.abs() + low.abs()) / step;
+        let mut row = vec![(high - low) / (2.0 * step)];
+        let mut factor = SHRINK * SHRINK;
+        for column in 0..last.len() {
+            let value = (row[column] * factor - last[column]) / (factor - 1.0);
+            let error = (value - row[column]).abs().max((value - last[column]).abs()) + rounding;
+            if best.is_none_or(|best| error < best.error) {
+                best = Some(Estimate { value, error });
+            }
+            row.push(value);
+            factor *= SHRINK * SHRINK;
+        }
+        last = row;
+        step /= SHRINK;
+    }
+    best
+}
+
+/// Relative difference that a derivative may have from a good estimate.
+const TOLERANCE: f64 = 1e-6;
+/// An estimate with a larger relative error says nothing.
+const VAGUE: f64 = 1e-3;
+
+/// The derivative at good points against differences.
+pub(super) fn pressure(bench: &Bench) -> Judged {
+    bench.with(|law, instance| {
+        let case = good(bench, law, instance)?;
+        let (mut compared, mut zero) = (0, 0);
+        let mut first_wrong: Option<Finding> = None;
+        for index in 0..case.count {
+            let single = case.single(index);
+            let pressure = single.point(0).scalar(Field::Pressure);
+            let Some((increment, slope)) = at_pressure(law, instance, &single, pressure) else { continue };
+            let increment_at = |p: f64| at_pressure(law, instance, &single, p).map(|(increment, _)| increment);
+            let estimate = [0.1, 0.01, 1e-3, 1e-4]
+                .into_iter()
+                .filter_map(|part| ridders(increment_at, pressure, part * pressure))
+                .min_by(|a, b| a.error.total_cmp(&b.error));
+            let Some(estimate) = estimate else { continue };
+            // What does not matter beside the increment itself is rounding.
+            let least = 1e-9 * increment.abs() / pressure;
+            if estimate.error > VAGUE * estimate.value.abs().max(least) {
+                continue;
+            }
+            compared += 1;
+            zero += usize::from(slope == 0.0 && estimate.value.abs() > least);
+            let allowed = 20.0 * estimate.error + TOLERANCE * slope.abs().max(estimate.value.abs()) + least;
+            if (slope - estimate.value).abs() <= allowed {
+                continue;
+            }
+            first_wrong.get_or_insert_with(|| {
+                let finding = Finding::new("the derivative with respect to the pressure is wrong");
+                let expected = format!(
+                    "d_pressure {} +- {:.0e}, from differences of the increment",
+                    number_text(estimate.value),
+                    estimate.error
+                );
+                let found = format!("d_pressure {}", number_text(slope));
+                finding.with(found, expected).at(single.named(&law.about, 0))
+            });
+        }
+        match first_wrong {
+            Some(mut finding) => {
+                if zero == compared {
+                    finding.what =
+                        "the derivative with respect to the pressure is missing: it is 0 everywhere".to_owned();
+                }
+                broken(finding)
+            }
+            None if compared == 0 => skip("no point where differences of the increment tell a derivative"),
+            None => Ok(Verdict::Pass(Some(format!("{compared} points compared")))),
+        }
+    })
+}
+
+/// Pressures between which jumps are looked for, Pa: more than any contact has, and how many.
+const LOWEST: f64 = 1e4;
+const HIGHEST: f64 = 1e11;
+const GRID: usize = 300;
+
+/// A jump of the derivative.
+struct Jump {
+    pressure: f64,
+    before: f64,
+    after: f64,
+}
+
+/// Looks along one point's pressure for a jump that stays when the interval shrinks.
+fn jump(law: &Law<'_>, instance: &Instance<'_>, case: &Case) -> Option<Jump> {
+    let slope = |pressure: f64| at_pressure(law, instance, case, pressure).map(|(_, slope)| slope);
+    let grid = (0..=GRID).map(|index| LOWEST * (HIGHEST / LOWEST).powf(index as f64 / GRID as f64));
+    let known: Vec<(f64, f64)> = grid.filter_map(|p| slope(p).filter(|s| s.is_finite()).map(|s| (p, s))).collect();
+    let change = |a: f64, b: f64| (a - b).abs() / a.abs().max(b.abs()).max(f64::MIN_POSITIVE);
+    let mut pairs: Vec<_> =
+        known.windows(2).map(|pair| (pair[0], pair[1])).filter(|(a, b)| change(a.1, b.1) > 1e-4).collect();
+    pairs.sort_by(|a, b| change(b.0.1, b.1.1).total_cmp(&change(a.0.1, a.1.1)));
+    'pairs: for (mut low, mut high) in pairs.into_iter().take(12) {
+        let whole = (high.1 - low.1).abs();
+        while high.0 - low.0 > 1e-12 * high.0 {
+            let middle = low.0.midpoint(high.0);
+            if middle <= low.0 || middle >= high.0 {
+                break;
+            }
+            let Some(at) = slope(middle).filter(|slope| slope.is_finite()) else { continue 'pairs };
+            if (at - low.1).abs() > (high.1 - at).abs() {
+                high = (middle, at);
+            } else {
+                low = (middle, at);
+            }
+            // A steep curve becomes flat when one looks closer.
+            if (high.1 - low.1).abs() < 0.1 * whole {
+                continue 'pairs;
+            }
+        }
+        if change(low.1, high.1) > 1e-5 {
+            return Some(Jump { pressure: high.0, before: low.1, after: high.1 });
+        }
+    }
+    None
+}
+
+/// Jumps of the derivative at positive pressures, and whether the law says so.
+pub(super) fn kinks(bench: &Bench) -> Judged {
+    bench.with(|law, instance| {
+        let case = good(bench, law, instance)?;
+        let declared = law.about.flags.contains(Flag::Kinks);
+        let found = [0, POINTS / 2, POINTS - 1].into_iter().find_map(|index| {
+            let single = case.single(index);
+            jump(law, instance, &single).map(|jump| (single, jump))
+        });
+        match found {
+            None if declared => Ok(Verdict::Pass(Some("declared; none found along the pressures tried".to_owned()))),
+            None => Ok(Verdict::Pass(None)),
+            Some((_, jump)) if declared => {
+                Ok(Verdict::Pass(Some(format!("declared, and found at pressure {}", number_text(jump.pressure)))))
+            }
+            Some((single, jump)) => {
+                let finding = Finding::new("the derivative jumps, and the law does not have the flag WL_FLAG_KINKS");
+                let words = |slope: f64| number_text(slope);
+                let found = format!(
+                    "d_pressure from {} to {} at pressure {}",
+                    words(jump.before),
+                    words(jump.after),
+                    number_text(jump.pressure)
+                );
+                broken(finding.with(found, "no jump, or the flag").at(single.named(&law.about, 0)))
+            }
+        }
+    })
+}
+
+/// The values with and without the derivative being asked for.
+pub(super) fn asked(bench: &Bench) -> Judged {
+    bench.with(|law, instance| {
+        let case = good(bench, law, instance)?;
+        let all = Asked::values(&law.about);
+        let mut differences = Differences::default();
+        for count in [1, 7, POINTS, 67] {
+            let case = case.repeated(count);
+            let layout = Layout::plain(&law.about);
+            let with = ask(&law.about, instance, &case, &layout);
+            let asked = Asked { d_pressure: false, ..all };
+            let without = ask(&law.about, instance, &case, &Layout { asked, ..layout });
+            still_good(&law.about, &case, &without, "without the derivative asked for")?;
+            for point in 0..count {
+                differences.note(without.at(point).difference(&with.at(point)), || {
+                    Finding::new("asking for the derivative changes a value").at(case.named(&law.about, point))
+                });
+            }
+        }
+        differences.judge(&law.about)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_give_smooth_derivatives_to_many_digits_with_an_honest_error() {
+        type Pair = (fn(f64) -> f64, fn(f64) -> f64);
+        let pairs: [Pair; 4] = [
+            (|x| x, |_| 1.0),
+            (|x| x.powf(1.7), |x| 1.7 * x.powf(0.7)),
+            (|x| (x / 3e7).exp(), |x| (x / 3e7).exp() / 3e7),
+            (|x| 1e-20 * x.sqrt(), |x| 0.5e-20 / x.sqrt()),
+        ];
+        for (function, derivative) in pairs {
+            for at in [1e6, 5e7] {
+                let found = ridders(|x| Some(function(x)), at, 0.1 * at).unwrap();
+                let exact = derivative(at);
+                assert!((found.value - exact).abs() <= 2.0 * found.error + 1e-12 * exact, "{found:?} {exact}");
+                assert!(found.error < 1e-7 * exact, "{found:?} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_refused_value_gives_no_derivative() {
+        assert_eq!(ridders(|x| (x > 0.0).then_some(x), 1.0, 2.0), None);
+    }
+}

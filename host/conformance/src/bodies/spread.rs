@@ -1,0 +1,187 @@
+//! How columns lie: given once, side by side or with gaps, the answers are the same.
+
+use super::super::harness::call::{Asked, Layout, Spread};
+use super::super::harness::points::{Case, Point};
+use super::super::harness::sample::nearest;
+use super::super::harness::subject::{Instance, Law};
+use super::super::message::{Judged, skip};
+use super::super::outcome::Finding;
+use super::batch::{Known, over_and_over, over_ways};
+use super::bench::{Bench, Differences, POINTS, ask, not_finite, still_good};
+use super::extremes::is_unit_vector;
+use wearlaw_law::{Field, Fields};
+
+/// Points that fill two blocks and begin a third, whatever the size of the blocks a law works in (1024 at most).
+const BLOCKS: usize = 2051;
+
+/// Points that share the values of some fields, given once or at every point.
+fn shared(case: &Case, fields: Fields) -> Case {
+    let first: Point = case.point(0).clone();
+    case.map(|point| {
+        for field in fields.iter() {
+            point.set_vector(field, first.real(field));
+            point.set_index(field, first.index(field));
+        }
+    })
+}
+
+/// Compares a case, small and over several blocks, in two layouts in every way of asking.
+fn both(
+    law: &Law<'_>,
+    instance: &Instance<'_>,
+    case: &Case,
+    (usual, other): (&Layout, &Layout),
+    what: &str,
+    differences: &mut Differences,
+) -> Judged<()> {
+    let about = &law.about;
+    for case in [case.clone(), case.repeated(BLOCKS)] {
+        for asked in Asked::ways(about) {
+            let expected = ask(about, instance, &case, &Layout { asked, ..*usual });
+            if !expected.is_good() {
+                // These values do not go together.
+                return Ok(());
+            }
+            let answers = ask(about, instance, &case, &Layout { asked, ..*other });
+            still_good(about, &case, &answers, what)?;
+            for point in 0..case.count {
+                differences.note(expected.at(point).difference(&answers.at(point)), || {
+                    Finding::new(what).at(case.named(about, point))
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Each field and input, and all together, given once.
+pub(super) fn uniform_fields(bench: &Bench) -> Judged {
+    bench.with(|law, instance| {
+        let about = &law.about;
+        if about.fields().is_empty() && about.inputs.is_empty() {
+            return skip("the law reads no fields");
+        }
+        let mut differences = Differences::default();
+        let plain = Layout::plain(about);
+        // No power of two, so that blocks do not begin with the same point.
+        for case in bench.goods(law, instance, POINTS - 1)? {
+            let sets = about.fields().iter().map(|field| Fields::EMPTY.with(field)).chain([about.fields()]);
+            for fields in sets {
+                // A unit vector and what depends on it are taken from one point.
+                let with_vectors = fields.iter().any(is_unit_vector) || fields == about.fields();
+                let every: Fields = Field::ALL.iter().copied().filter(|field| field.shape().width() == 3).collect();
+                let case = shared(&case, if with_vectors { fields.union(every) } else { fields });
+                let what = format!("{fields} given once (step 0) instead of at every point");
+                let once = Layout { uniform: fields, ..plain };
+                both(law, instance, &case, (&plain, &once), &what, &mut differences)?;
+            }
+            let inputs = case.point(0).inputs.clone();
+            if !inputs.is_empty() {
+                let case = case.map(|point| point.inputs.clone_from(&inputs));
+                let once = Layout { inputs: Spread::Uniform, ..plain };
+                let what = "inputs given once (step 0) instead of at every point";
+                both(law, instance, &case, (&plain, &once), what, &mut differences)?;
+            }
+        }
+        differences.judge(about)
+    })
+}
+
+/// Fields, inputs and state with gaps between their points, each and all.
+pub(super) fn strided_fields(bench: &Bench) -> Judged {
+    over_ways(bench, 2 * POINTS - 1, |known, differences| {
+        let mut layouts = Vec::new();
+        for times in [3, 2, 7] {
+            let gaps = Spread::Strided(times);
+            let what = |name: &str| format!("{name} whose values lie {times} times their width apart");
+            let fields = Layout { fields: gaps, ..known.layout };
+            layouts.push((what("fields, inputs and state"), Layout { inputs: gaps, state: gaps, ..fields }));
+            layouts.push((what("fields and inputs"), Layout { inputs: gaps, ..fields }));
+            layouts.push((what("fields"), fields));
+            layouts.push((what("state"), Layout { state: gaps, ..known.layout }));
+            layouts.push((what("inputs"), Layout { inputs: gaps, ..known.layout }));
+        }
+        for field in known.fields().iter() {
+            let spread = Fields::EMPTY.with(field);
+            let what = format!("{} alone with gaps between its points", field.name());
+            layouts.push((what, Layout { spread, fields: Spread::Strided(2), ..known.layout }));
+        }
+        for (what, layout) in layouts {
+            for count in [known.case.count, BLOCKS] {
+                known.compare(&over_and_over(known.case.count, count), &layout, &what, differences)?;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Points with constants of their own, against each alone.
+fn with_constants_at(bench: &Bench, spreads: &[Spread], what: &str) -> Judged {
+    bench.with(|law, instance| {
+        let about = &law.about;
+        if about.constants.is_empty() {
+            return skip("the law has no constants");
+        }
+        let mut case = bench.good(law, instance, POINTS - 1)?;
+        let known = bench.known_constants(law);
+        let mut sampler = bench.sampler(law, &known);
+        let good = |case: &Case| {
+            let answers = ask(about, instance, case, &Layout::plain(about));
+            answers.is_good() && not_finite(&answers, 0).is_none()
+        };
+        let mut each = Vec::new();
+        for point in 0..case.count {
+            // Constants that go with this point; the shared ones do in any case.
+            let mut single = case.single(point);
+            for _ in 0..10 {
+                single.constants = sampler.constants();
+                if good(&single) {
+                    break;
+                }
+                single.constants.clone_from(&case.constants);
+            }
+            // At some points one of them is 0, or as near to it as it may be.
+            let mut least = single.clone();
+            let place = point / 2 % about.constants.len();
+            least.constants[place] = nearest(&about.constants[place]);
+            each.push(if point % 2 == 1 && good(&least) { least.constants } else { single.constants });
+        }
+        case.constants_at = Some(each.clone());
+        let same = Case { constants_at: Some(vec![case.constants.clone()]), ..case.clone() };
+        let mut cases = vec![(case.clone(), None), (same, None)];
+        for alone in 0..about.constants.len() {
+            // The other constants are given once.
+            let mixed = each.iter().enumerate().map(|(point, own)| {
+                let mut single = case.single(point);
+                single.constants.clone_from(&case.constants);
+                single.constants[alone] = own[alone];
+                if good(&single) { single.constants } else { case.constants.clone() }
+            });
+            cases.push((Case { constants_at: Some(mixed.collect()), ..case.clone() }, Some(alone)));
+        }
+        let mut differences = Differences::default();
+        for asked in Asked::ways(about) {
+            for (case, constant_alone) in &cases {
+                let known = Known::of(law, instance, case.clone(), asked)?;
+                for constants in spreads {
+                    let layout = Layout { constants: *constants, constant_alone: *constant_alone, ..known.layout };
+                    for count in [case.count, BLOCKS] {
+                        known.compare(&over_and_over(case.count, count), &layout, what, &mut differences)?;
+                    }
+                }
+            }
+        }
+        differences.judge(about)
+    })
+}
+
+/// Constants at every point, all and each.
+pub(super) fn per_point_constants(bench: &Bench) -> Judged {
+    with_constants_at(bench, &[Spread::PerPoint], "constants given for every point")
+}
+
+/// Constants with gaps, all and each.
+pub(super) fn strided_constants(bench: &Bench) -> Judged {
+    let spreads = [Spread::Strided(3), Spread::Strided(2)];
+    with_constants_at(bench, &spreads, "constants with gaps between their points")
+}
