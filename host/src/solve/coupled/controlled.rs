@@ -331,7 +331,9 @@ fn ends(start: f64, until: f64, steps: u64, seen: &[Taken]) -> Vec<f64> {
             .enumerate()
             .map(|(k, (taken, weight))| {
                 // The first step of some formulas does not know the rate that it starts from.
-                let weight = if weight.is_nan() { known.get(k + 1).copied().unwrap_or(0.0) } else { *weight };
+                // And a change from the step before is one within it where the rate belongs to its start.
+                let next = known.get(k + 1).copied().filter(|next| next.is_finite()).unwrap_or(0.0);
+                let weight = if weight.is_nan() { next } else { weight.max(next) };
                 let part = (taken.reach.until - taken.reach.start) / length;
                 (1.0 - EVEN) * weight / total + EVEN * part
             })
