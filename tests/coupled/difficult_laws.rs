@@ -1,6 +1,6 @@
 //! Laws that a contact solve has to look at closely.
 
-use crate::laws::{Impatient, ImpatientRate, RunningIn, Slowing, Work};
+use crate::laws::{Impatient, ImpatientRate, RunningIn, RunningInFirstOrder, Slowing, Work};
 use crate::solved::{Case, archard, memory, near};
 use wearlaw::law::memory::{MemoryInputs, MemoryLaw, MemoryOutputs};
 use wearlaw::law::{Claim, Claims, Degree, Field, Flag, Flags, LawDescriptor};
@@ -243,5 +243,24 @@ fn cells_at_the_threshold_of_a_law_wear_no_more_than_there_is() {
         let last = record.history.last().expect("rows");
         near(last.max_wear_depth, 3.27e-6, 2e-3);
         assert!(last.max_wear_depth < last.approach.expect("an approach"));
+    }
+}
+
+#[test]
+fn a_law_that_holds_its_state_over_a_substep_is_followed_where_its_rate_falls() {
+    // Under a constant load w = p (k_inf s + (k_0 - k_inf) s_0 (1 - exp(-s / s_0))), and the law's rate falls one step late.
+    let (pressure, way, kinf) = (1e7, 0.2, 1e-13);
+    for (more, part) in [(10.0, 0.3), (10.0, 0.1), (10.0, 0.01), (1e3, 0.3), (1e3, 0.1), (1e3, 0.01)] {
+        let (k0, s0) = (more * kinf, part * way);
+        let exact = pressure * (kinf * way + (k0 - kinf) * s0 * (1.0 - f64::exp(-way / s0)));
+        for tolerance in [0.1, 0.03, 0.01] {
+            let rest = format!("[integrator]\ntolerance = {tolerance}\n");
+            let case = solved_case(&format!("constants = [{k0}, {kinf}, {s0}]"), "load = 1e4", way, &rest);
+            let record = case.solve(&memory::<RunningInFirstOrder>(None)).record;
+            let reported = record.estimated.wear_l2_relative.expect("it wears");
+            let truth = ((record.wear[0] - exact) / exact).abs();
+            assert!(truth <= 1.5 * reported, "{more}, {part}, {tolerance}: {truth:.2e} off, {reported:.2e} reported");
+            assert!(reported <= tolerance, "{more}, {part}, {tolerance}: {reported:.2e} reported");
+        }
     }
 }
