@@ -62,7 +62,7 @@ impl Accuracy {
                 return Err(format!("{name} is refused: the law wants a shorter substep"));
             }
             for (head, found, is_component) in answer.named(about) {
-                let Some(cell) = table.cell(row, &head).filter(|cell| !cell.value.is_nan()) else { continue };
+                let Some(cell) = table.cell(row, &head).filter(|cell| !cell.empty) else { continue };
                 let digits = table.digits(&head);
                 let expected = cell.value;
                 let off = if is_component {

@@ -33,8 +33,9 @@ mod unit_text;
 mod writing;
 
 use std::ffi::OsString;
+use std::io::IsTerminal;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 
 use crate::conformance;
 use crate::error::Error;
@@ -43,6 +44,9 @@ use crate::law::embedded;
 use crate::law::isolate::{WORKER_COMMAND, worker_main};
 use args::{Arguments, Command};
 use console::Console;
+
+/// Columns of help that goes to a file or another program: no line of the page on scenes is longer.
+const FILE_WIDTH: usize = 130;
 
 /// Runs the program with these arguments, the first one being its own name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
@@ -56,7 +60,12 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         let words: Vec<String> = arguments[2..].iter().map(|word| word.to_string_lossy().into_owned()).collect();
         std::process::exit(conformance::worker_main(&words));
     }
-    let parsed = match Arguments::try_parse_from(&arguments) {
+    let mut line = Arguments::command();
+    if !std::io::stdout().is_terminal() {
+        line = line.term_width(FILE_WIDTH);
+    }
+    let parsed = line.try_get_matches_from_mut(&arguments).and_then(|found| Arguments::from_arg_matches(&found));
+    let parsed = match parsed {
         Ok(parsed) => parsed,
         Err(error) => return args::refuse(&error, &arguments),
     };

@@ -27,12 +27,14 @@ pub(super) fn command(console: &Console, arguments: &NewArguments) -> Result<Exi
             "language": wanted.language.to_string(),
             "files": created.files,
             "commands": created.commands,
+            "check": created.check,
         }))?;
     } else if !console.quiet {
         let folder = arguments.folder.display();
         let law = format!("{folder}/{}", created.files[0]);
         let commands: String = created.commands.iter().map(|command| format!("  {command}\n")).collect();
-        console.result(&format!("{law} is a working law in {}. Type next:\n\n{commands}", wanted.language))?;
+        let then = format!("and, when you have changed it, `{}`: what is wrong with it.\n", created.check);
+        console.result(&format!("{law} is a working law in {}. Type next:\n\n{commands}\n{then}", wanted.language))?;
     }
     Ok(ExitCode::Done)
 }

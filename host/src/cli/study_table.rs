@@ -49,7 +49,15 @@ pub(super) fn text(console: &Console, study: &StudyRecord, out: &Path) -> String
     text.push_str(&format!("\n{}\n", console.headline("verdict")));
     study.verdict.iter().for_each(|line| text.push_str(&labelled("-", line, 2, WIDTH)));
     let time = format!("{} s of {} s", significant(study.spent_s, 3), significant(study.budget_s, 3));
-    text.push_str(&labelled("-", &format!("the study took {time}; its files are in {}", out.display()), 2, WIDTH));
+    text.push_str(&labelled(
+        "-",
+        &format!(
+            "the study took {time}; its picture is {}, its table study.csv beside it",
+            out.join("study.svg").display()
+        ),
+        2,
+        WIDTH,
+    ));
     text
 }
 

@@ -36,6 +36,8 @@ pub struct CreatedLaw {
     pub files: Vec<String>,
     /// The three commands to type next: build, inspect, run.
     pub commands: [String; 3],
+    /// The command that tells what is wrong with the law, once it is built.
+    pub check: String,
 }
 
 /// Bytes that a law's name may have: those of the ABI but for the closing one, and of a file name around it.
@@ -65,6 +67,7 @@ pub fn create(wanted: &NewLaw) -> Result<CreatedLaw, TemplateError> {
         command(&["inspect"], &built),
         command(&["run"], &wanted.folder.join("scene.toml")),
     ];
+    let check = command(&["check"], &built);
     let fill = |text: &str| {
         text.replace("{{name}}", &name)
             .replace("{{library}}", &library)
@@ -96,7 +99,7 @@ pub fn create(wanted: &NewLaw) -> Result<CreatedLaw, TemplateError> {
             _ => headers::write_into(&aside.join("include")),
         }
     })?;
-    Ok(CreatedLaw { name, files: files.into_iter().map(|(name, _)| name).collect(), commands })
+    Ok(CreatedLaw { name, files: files.into_iter().map(|(name, _)| name).collect(), commands, check })
 }
 
 /// The folder of the Rust side in a law's crate.

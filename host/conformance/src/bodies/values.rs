@@ -48,7 +48,8 @@ pub(super) fn finite(bench: &Bench) -> Judged {
         if good[0] == 0 {
             let finding =
                 Finding::new("the law refuses every ordinary input that was tried, so most checks test nothing");
-            let expected = "some answers; rows in expected.csv beside the law give constants to try";
+            let expected = "some answers: rows in expected.csv beside the law give constants to try, and a field that \
+                            is read without being declared is no number";
             return Ok(Verdict::Warn(finding.with(format!("0 of {calls} answered"), expected)));
         }
         Ok(Verdict::Pass(Some(format!(

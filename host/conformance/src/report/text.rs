@@ -16,9 +16,7 @@ const LINE: usize = 100;
 /// The line of one check: outcome, name, and what was seen or why it was not run.
 pub fn line(result: &CheckResult) -> String {
     let facts = result.check.facts();
-    let name = result.outcome.name();
-    // What needs attention stands out without color.
-    let shown = if result.outcome.falls_short() { name.to_uppercase() } else { name.to_owned() };
+    let shown = shown(&result.outcome);
     let words = match &result.outcome {
         Outcome::Pass(Some(note)) => format!("{} ({note})", facts.description),
         Outcome::Skipped(reason) => reason.clone(),
@@ -55,19 +53,24 @@ pub fn text(report: &Report, options: &CheckOptions, law: &str) -> String {
     text
 }
 
-/// The report of somebody who wants no word on what is good: a line for each check that found a fault, and the last line.
+/// The report of somebody who wants no word on what is good: a line for each check that found a fault or warns, and the
+/// last line.
 pub fn quiet(report: &Report) -> String {
     let mut text = String::new();
-    for result in report.results.iter().filter(|result| result.outcome.falls_short()) {
+    for result in &report.results {
         let Some(finding) = result.outcome.finding() else { continue };
         let law = result.law.as_deref().filter(|_| report.laws.len() > 1);
         let law = law.map_or_else(String::new, |law| format!("law {law}: "));
         let what = finding.what.lines().next().unwrap_or_default();
-        let name = result.outcome.name().to_uppercase();
-        let _ = writeln!(text, "  {name:<OUTCOME$}  {:<NAME$}  {law}{what}", result.check.name());
+        let _ = writeln!(text, "  {:<OUTCOME$}  {:<NAME$}  {law}{what}", shown(&result.outcome), result.check.name());
     }
     text.push_str(&summary(report));
     text
+}
+
+/// The name of an outcome; what needs attention stands out without color.
+fn shown(outcome: &Outcome) -> String {
+    if outcome.falls_short() { outcome.name().to_uppercase() } else { outcome.name().to_owned() }
 }
 
 /// What its author needs to know of a check that failed or warned.
@@ -214,6 +217,9 @@ mod tests {
         assert!(quiet(&report).contains("law a: a substep of no length wears\n"), "{}", quiet(&report));
         report.results.retain(|result| !result.outcome.falls_short());
         assert!(quiet(&report).starts_with("passes: "), "{}", quiet(&report));
+        report.results[0].outcome = Outcome::Warn(Finding::new("slow"));
+        let warned = format!("  warn       {:<NAME$}  slow\npasses: ", report.results[0].check.name());
+        assert!(quiet(&report).starts_with(&warned), "{}", quiet(&report));
     }
 
     #[test]

@@ -55,8 +55,10 @@ impl Expected {
 /// A number of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
-    /// NaN for an empty cell.
+    /// NaN for an empty cell, or for one that says so.
     pub value: f64,
+    /// True if nothing is written.
+    pub empty: bool,
     /// Digits that it is written with, zeros in front not counted.
     pub digits: usize,
     /// Half a unit of the last digit that is written.
@@ -73,9 +75,19 @@ impl Cell {
         let power = power.parse::<i32>().unwrap_or(0) - decimals as i32;
         // Read as text, the power of ten is rounded once.
         let half_unit = format!("5e{}", power - 1).parse().unwrap_or(f64::NAN);
-        Some(Self { value, digits, half_unit })
+        Some(Self { value, empty: text.is_empty(), digits, half_unit })
+    }
+
+    /// The number of a status, by its value or its name.
+    fn read_status(text: &str) -> Option<Self> {
+        let by_name = STATUSES.iter().position(|name| *name == text);
+        Self::read(&by_name.map_or_else(|| text.to_owned(), |value| value.to_string()))
     }
 }
+
+/// The statuses by their names, in the order of their values.
+const STATUSES: [&str; 6] =
+    ["WL_OK", "WL_UNRELIABLE", "WL_CUT_STEP", "WL_OUT_OF_DOMAIN", "WL_MISSING_INPUT", "WL_FAILED"];
 
 /// A table of known values; an empty cell is a NaN.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,11 +113,19 @@ impl Table {
         let heads: Vec<String> = heads.iter().map(str::to_owned).collect();
         let mut rows = Vec::new();
         for (index, record) in reader.records().enumerate() {
-            let record = record.map_err(|error| format!("{origin}: {error}"))?;
+            let record = record.map_err(|error| uneven(&error, origin))?;
             let mut row = Vec::new();
-            for cell in &record {
-                let read = Cell::read(cell);
-                row.push(read.ok_or_else(|| format!("{origin}, row {}: `{cell}` is no number", index + 1))?);
+            for (head, cell) in heads.iter().zip(&record) {
+                let read = if head == STATUS { Cell::read_status(cell) } else { Cell::read(cell) };
+                let read = read.ok_or_else(|| {
+                    let expected = if head == STATUS { "one such as 3 or WL_OUT_OF_DOMAIN" } else { "a number" };
+                    format!("{origin}, row {}: `{cell}` below `{head}`, expected {expected}", index + 1)
+                })?;
+                if read.value.is_nan() && !read.empty && is_answer(head) {
+                    let words = "expected a number, or nothing where the row is refused (`status`)";
+                    return Err(format!("{origin}, row {}: `{cell}` below `{head}`, {words}", index + 1));
+                }
+                row.push(read);
             }
             rows.push(row);
         }
@@ -115,9 +135,9 @@ impl Table {
         Ok(Self { origin: origin.to_owned(), heads, rows })
     }
 
-    /// The number in a row below a head; NaN for an empty cell, none for a head that the table has not.
+    /// The number in a row below a head; none for an empty cell, and for a head that the table has not.
     pub fn get(&self, row: usize, head: &str) -> Option<f64> {
-        self.cell(row, head).map(|cell| cell.value)
+        self.cell(row, head).filter(|cell| !cell.empty).map(|cell| cell.value)
     }
 
     /// The number in a row below a head, and how many of its digits are written.
@@ -147,7 +167,7 @@ impl Table {
 
     /// The status that a row has to be answered with; a word on what is wrong with it otherwise.
     pub fn status(&self, row: usize) -> Result<i32, String> {
-        let status = self.get(row, STATUS).filter(|value| !value.is_nan()).unwrap_or_default();
+        let status = self.get(row, STATUS).unwrap_or_default();
         let known = (abi::WL_OK..=abi::WL_FAILED).find(|known| f64::from(*known) == status);
         let (name, last) = (self.row_name(row), abi::WL_FAILED);
         known.ok_or_else(|| format!("{name}: status {status}, expected {} to {last}", abi::WL_OK))
@@ -157,7 +177,7 @@ impl Table {
     pub fn inputs(&self, row: usize, case: &Case, law: &LawDescriptor) -> Vec<(String, String)> {
         let mut named = case.named(law, 0);
         for head in NUMBERS {
-            let given = self.get(row, head).filter(|value| !value.is_nan() && !named.iter().any(|n| n.0 == head));
+            let given = self.get(row, head).filter(|_| !named.iter().any(|n| n.0 == head));
             named.extend(given.map(|value| (head.to_owned(), number_text(value))));
         }
         named
@@ -185,6 +205,10 @@ impl Table {
         if let Some(head) = self.heads.iter().find(|head| !known.contains(head)) {
             return Some(format!("{}: column `{head}` means nothing to law `{}`", self.origin, law.name));
         }
+        if let Some(head) = self.heads.iter().find(|head| known.iter().filter(|one| one == head).count() > 1) {
+            let words = "stands for two of its quantities: one of them needs another name";
+            return Some(format!("{}: column `{head}` of law `{}` {words}", self.origin, law.name));
+        }
         let needed = law.reads.iter().map(first_head);
         let needed = needed.chain(law.constants.iter().filter(|c| c.default.is_none()).map(|c| c.name.clone()));
         let mut needed = needed.chain(law.inputs.iter().map(|input| input.name.clone()));
@@ -194,7 +218,7 @@ impl Table {
 
     /// The call of a row, and the fields that it does not give.
     pub fn case(&self, row: usize, law: &LawDescriptor) -> (Case, Fields) {
-        let number = |head: &str| self.get(row, head).filter(|value| !value.is_nan());
+        let number = |head: &str| self.get(row, head);
         let mut point = Point::zero(law);
         let mut absent = Fields::EMPTY;
         for field in law.fields().iter() {
@@ -248,6 +272,22 @@ fn first_head(field: Field) -> String {
 /// Numbers of the call that a table may give.
 const NUMBERS: [&str; 4] = ["dt", "time", "absolute_zero", "reference_temperature"];
 
+/// What is wrong with the rows of a table, in words.
+fn uneven(error: &csv::Error, origin: &str) -> String {
+    match error.kind() {
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+            let line = pos.as_ref().map(|pos| format!(", line {}", pos.line())).unwrap_or_default();
+            format!("{origin}{line}: {len} cells, expected {expected_len} as in the line of the names")
+        }
+        _ => format!("{origin}: {error}"),
+    }
+}
+
+/// Whether a column holds what a law answers.
+fn is_answer(head: &str) -> bool {
+    ["increment", "d_pressure"].contains(&head) || head.starts_with("direction_") || head.ends_with("_end")
+}
+
 /// The column of the status that a row is answered with; there is none: all are good.
 const STATUS: &str = "status";
 
@@ -277,6 +317,19 @@ mod tests {
         assert_eq!((case.constants[0], case.point(0).scalar(Field::Pressure), case.numbers.dt), (1e-4, 5e7, 1.0));
         assert!(absent.is_empty());
         assert!(table.case(1, &law).1.contains(Field::Pressure));
+        // What is no number is given, as such.
+        let table = Table::parse("K,H,pressure,velocity,dt,status\n1,1,nan,1,1,3\n", "t").unwrap();
+        let (case, absent) = table.case(0, &law);
+        assert!(absent.is_empty() && case.point(0).scalar(Field::Pressure).is_nan());
+    }
+
+    #[test]
+    fn a_column_that_stands_for_two_quantities_is_told() {
+        let mut law = archard();
+        law.state = vec![Quantity { name: "slip".to_owned(), ..law.constants[0].clone() }];
+        law.constants[0].name = "slip_start".to_owned();
+        let table = Table::parse("slip_start,H,pressure,velocity,dt,increment\n1,1,1,1,1,1\n", "t").unwrap();
+        assert!(table.misfit(&law).unwrap().contains("`slip_start` of law `archard` stands for two"));
     }
 
     #[test]
@@ -290,6 +343,8 @@ mod tests {
         assert!(table.status(2).unwrap_err().contains("row 3: status 2.5"));
         assert_eq!(table.constants(&law), [[2.0, 1.0, 1.0, 1.0]], "those that something is known of");
         let shown = table.inputs(0, &table.case(0, &law).0, &law);
+        let named = Table::parse("K,status\n1,WL_OUT_OF_DOMAIN\n1,WL_OK\n", "t").unwrap();
+        assert_eq!((named.status(0), named.status(1)), (Ok(abi::WL_OUT_OF_DOMAIN), Ok(abi::WL_OK)));
         for (name, value) in [("dt", "1"), ("time", "3"), ("absolute_zero", "-273.15")] {
             assert_eq!(shown.iter().filter(|(n, v)| n == name && v == value).count(), 1, "{name} in {shown:?}");
         }
@@ -325,7 +380,11 @@ mod tests {
         let misfit = |text: &str| Table::parse(text, "t").unwrap().misfit(&law).unwrap();
         assert!(misfit("K,H,pressure,velocity,dt,increments\n1,1,1,1,1,1\n").contains("`increments`"));
         assert!(misfit("K,H,pressure,dt,increment\n1,1,1,1,1\n").contains("`velocity`"));
-        assert!(Table::parse("K\nx\n", "t").unwrap_err().contains("row 1: `x`"));
+        assert!(Table::parse("K\nx\n", "t").unwrap_err().contains("row 1: `x` below `K`"));
+        let refused = |text: &str| Table::parse(text, "t").unwrap_err();
+        assert_eq!(refused("K,H\n1,1\n1\n"), "t, line 3: 1 cells, expected 2 as in the line of the names");
+        assert!(refused("K,status\n1,WL_WRONG\n").contains("`WL_WRONG` below `status`, expected one such as 3"));
+        assert!(refused("K,increment\n1,nan\n").contains("row 1: `nan` below `increment`"));
         assert!(Table::parse("K\n", "t").unwrap_err().contains("no rows"));
     }
 }
