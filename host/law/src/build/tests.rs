@@ -192,7 +192,7 @@ fn an_output_that_cannot_be_written_is_named_before_compiling() {
 /// Runs one test of this file in a process of its own, with environment variables of its own.
 fn in_a_process_of_its_own(test: &str, variables: &[(&str, &str)]) {
     let output = std::process::Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", &format!("law::build::tests::{test}"), "--nocapture"])
+        .args(["--exact", &format!("build::tests::{test}"), "--nocapture"])
         .env("WEARLAW_TEST_INNER", "1")
         .envs(variables.iter().copied())
         .output()

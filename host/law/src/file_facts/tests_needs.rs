@@ -47,7 +47,7 @@ fn a_sanitized_library_is_refused_with_the_command_that_helps() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_runtime_that_is_in_the_process_is_enough() {
-    const TEST: &str = "law::file_facts::tests_needs::a_runtime_that_is_in_the_process_is_enough";
+    const TEST: &str = "file_facts::tests_needs::a_runtime_that_is_in_the_process_is_enough";
     if let Some(law) = std::env::var_os("WEARLAW_TEST_SANITIZED") {
         FileFacts::read(Path::new(&law)).unwrap();
         return;
