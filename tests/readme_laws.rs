@@ -55,6 +55,9 @@ fn the_laws_of_the_readme_build_and_run_as_printed() {
     std::os::unix::fs::symlink(native::include().canonicalize().expect("include/"), folder.path().join("include"))
         .expect("a writable folder");
     std::fs::write(folder.path().join("try.c"), block_with(&text, "c", "dlopen")).expect("a writable folder");
+    // The table of known values on the page is one of theirs.
+    let known = block_with(&text, "csv", "WL_OUT_OF_DOMAIN");
+    std::fs::write(folder.path().join("expected.csv"), known).expect("a writable folder");
     for (name, source, command) in laws {
         std::fs::write(folder.path().join(name), source).expect("a writable folder");
         shell(folder.path(), command);

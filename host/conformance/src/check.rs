@@ -302,7 +302,7 @@ Physics {
     PhysicsLinearInDt "physics/linear-in-dt" quick "claimed: one substep wears as much as k equal parts of it"
         ["Claims"] "WL_CLAIM_LINEAR_IN_DT: at fixed rates a substep wears as much as its equal parts, one after the other";
     PhysicsPressureDegree "physics/pressure-degree" quick "claimed: pressure times f gives increment times f^d"
-        ["Claims"] "pressure degree d: pressure times f gives increment times f^d";
+        ["Claims"] "pressure degree d: pressure times f, and friction with it, gives increment times f^d";
     PhysicsFrame "physics/frame" quick "claimed: turning the frame turns the direction and leaves the increment"
         ["Claims"] "WL_CLAIM_FRAME_INDIFFERENT: turning the frame turns the direction and leaves the increment";
     PhysicsDirectionLength "physics/direction-length" quick "wear directions have unit length"

@@ -244,7 +244,7 @@ pub(super) struct CheckArguments {
     /// Seconds that a check may take before its process is ended [default: 20]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(super) timeout: Option<Duration>,
-    /// Switch checks off: a file with a line \"group/name\" = \"reason\" for each
+    /// Switch checks off: a file with a line "group/name" = "reason" for each
     #[arg(long, value_name = "FILE")]
     pub(super) waive: Option<PathBuf>,
     /// Run a failure again from the file that was written for it

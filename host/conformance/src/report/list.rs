@@ -12,12 +12,12 @@ pub fn list_text() -> String {
     for group in Group::ALL {
         let _ = writeln!(text, "{}", group.name());
         for facts in Check::ALL.iter().map(|check| check.facts()).filter(|facts| facts.group == group) {
-            let mark = if facts.quick { '*' } else { ' ' };
+            let mark = if facts.quick { ' ' } else { '†' };
             let _ = writeln!(text, "  {mark} {:<29}  {}", facts.name, facts.description);
         }
     }
-    let quick = Check::ALL.iter().filter(|check| check.facts().quick).count();
-    let _ = writeln!(text, "{} checks; --quick runs the {quick} marked with *", Check::ALL.len());
+    let full = Check::ALL.iter().filter(|check| !check.facts().quick).count();
+    let _ = writeln!(text, "{} checks; --quick leaves out the {full} marked with †", Check::ALL.len());
     text
 }
 

@@ -112,18 +112,19 @@ impl Table {
         let heads = reader.headers().map_err(|error| format!("{origin}: {error}"))?;
         let heads: Vec<String> = heads.iter().map(str::to_owned).collect();
         let mut rows = Vec::new();
-        for (index, record) in reader.records().enumerate() {
+        for record in reader.records() {
             let record = record.map_err(|error| uneven(&error, origin))?;
+            let line = record.position().map_or(0, csv::Position::line);
             let mut row = Vec::new();
             for (head, cell) in heads.iter().zip(&record) {
                 let read = if head == STATUS { Cell::read_status(cell) } else { Cell::read(cell) };
                 let read = read.ok_or_else(|| {
                     let expected = if head == STATUS { "one such as 3 or WL_OUT_OF_DOMAIN" } else { "a number" };
-                    format!("{origin}, row {}: `{cell}` below `{head}`, expected {expected}", index + 1)
+                    format!("{origin}, line {line}: `{cell}` below `{head}`, expected {expected}")
                 })?;
                 if read.value.is_nan() && !read.empty && is_answer(head) {
                     let words = "expected a number, or nothing where the row is refused (`status`)";
-                    return Err(format!("{origin}, row {}: `{cell}` below `{head}`, {words}", index + 1));
+                    return Err(format!("{origin}, line {line}: `{cell}` below `{head}`, {words}"));
                 }
                 row.push(read);
             }
@@ -380,11 +381,11 @@ mod tests {
         let misfit = |text: &str| Table::parse(text, "t").unwrap().misfit(&law).unwrap();
         assert!(misfit("K,H,pressure,velocity,dt,increments\n1,1,1,1,1,1\n").contains("`increments`"));
         assert!(misfit("K,H,pressure,dt,increment\n1,1,1,1,1\n").contains("`velocity`"));
-        assert!(Table::parse("K\nx\n", "t").unwrap_err().contains("row 1: `x` below `K`"));
+        assert!(Table::parse("K\nx\n", "t").unwrap_err().contains("t, line 2: `x` below `K`"));
         let refused = |text: &str| Table::parse(text, "t").unwrap_err();
         assert_eq!(refused("K,H\n1,1\n1\n"), "t, line 3: 1 cells, expected 2 as in the line of the names");
         assert!(refused("K,status\n1,WL_WRONG\n").contains("`WL_WRONG` below `status`, expected one such as 3"));
-        assert!(refused("K,increment\n1,nan\n").contains("row 1: `nan` below `increment`"));
+        assert!(refused("K,increment\n1,nan\n").contains("t, line 2: `nan` below `increment`"));
         assert!(Table::parse("K\n", "t").unwrap_err().contains("no rows"));
     }
 }
