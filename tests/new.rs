@@ -14,6 +14,7 @@ fn typed(here: &Path, name: &str, language: &str) -> String {
     let mut commands: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("  ")).collect();
     assert_eq!(commands.len(), 3, "{text}");
     let last = commands.pop().unwrap();
+    assert!(text.contains(&format!(" check {name}/lib{name}.so`: what is wrong with it")), "{text}");
     assert!(last.ends_with(&format!("run {name}/scene.toml")), "{last}");
     for command in commands {
         let ended = shell(here, command);

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::console::Console;
 use super::table::labelled;
 use super::unit_text::significant;
+use crate::output::STUDY_PICTURE;
 use crate::record::{Case, Errors, Kind, Status, StudyRecord, YardstickKind};
 
 const WIDTH: usize = 100;
@@ -49,15 +50,9 @@ pub(super) fn text(console: &Console, study: &StudyRecord, out: &Path) -> String
     text.push_str(&format!("\n{}\n", console.headline("verdict")));
     study.verdict.iter().for_each(|line| text.push_str(&labelled("-", line, 2, WIDTH)));
     let time = format!("{} s of {} s", significant(study.spent_s, 3), significant(study.budget_s, 3));
-    text.push_str(&labelled(
-        "-",
-        &format!(
-            "the study took {time}; its picture is {}, its table study.csv beside it",
-            out.join("study.svg").display()
-        ),
-        2,
-        WIDTH,
-    ));
+    let picture = out.join(STUDY_PICTURE);
+    let last = format!("the study took {time}; its picture is {}, its table lies beside it", picture.display());
+    text.push_str(&labelled("-", &last, 2, WIDTH));
     text
 }
 

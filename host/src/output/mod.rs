@@ -23,5 +23,5 @@ pub use fields::{FieldFormat, FieldSeries, write_fields};
 pub use html::{RunPage, write_run_page};
 pub use plot::{Figure, write_plot};
 pub use report::{LawReport, Report, StabilityReport};
-pub use study::{check_study_folder, write_study};
+pub use study::{STUDY_PICTURE, check_study_folder, write_study};
 pub use whole::{WholeFolder, check_folder, earlier_scene, sweep_folder, write_file, write_file_synced};

@@ -9,7 +9,8 @@ use std::path::Path;
 /// The mark of a finished study: placed last.
 const DOCUMENT: &str = "study.json";
 const TABLE: &str = "study.csv";
-const PICTURE: &str = "study.svg";
+/// Name of the picture of a study.
+pub const STUDY_PICTURE: &str = "study.svg";
 
 /// Checks that a study may go to the folder `path`: it is new, holds an earlier study, or none of its files.
 ///
@@ -22,7 +23,7 @@ pub fn check_study_folder(path: &Path) -> Result<(), OutputError> {
     if path.join(DOCUMENT).exists() {
         return Ok(());
     }
-    match [TABLE, PICTURE].iter().map(|name| path.join(name)).find(|file| file.exists()) {
+    match [TABLE, STUDY_PICTURE].iter().map(|name| path.join(name)).find(|file| file.exists()) {
         Some(path) => Err(OutputError::InTheWay { path }),
         None => Ok(()),
     }
@@ -36,7 +37,7 @@ pub fn write_study(study: &StudyRecord, path: &Path) -> Result<(), OutputError> 
     check_study_folder(path)?;
     fs::create_dir_all(path).map_err(OutputError::io("create", path))?;
     write_file(&path.join(TABLE), |to| rows(study, to))?;
-    plot::write_study_plot(study, &path.join(PICTURE))?;
+    plot::write_study_plot(study, &path.join(STUDY_PICTURE))?;
     write_file(&path.join(DOCUMENT), |to| {
         to.write_all(&serde_json::to_vec_pretty(study).map_err(io::Error::from)?)?;
         writeln!(to)

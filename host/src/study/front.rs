@@ -7,7 +7,7 @@ pub(super) const ERRORS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
 /// Stable cases on the scene's own grid with their time and error; an error that the yardstick does not resolve is no
 /// smaller than what is stated of the yardstick.
-fn stable<'c>(
+pub(super) fn stable<'c>(
     cases: &'c [Case],
     norm: &'c str,
     own: f64,

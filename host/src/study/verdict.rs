@@ -1,5 +1,6 @@
 //! What a study comes to, in words.
 
+use super::front::stable;
 use crate::record::{Case, Cheapest, Clock, Kind, Status, StudyRecord, YardstickKind};
 
 /// Below this part of the wall time the processors must have been busy with other work.
@@ -68,8 +69,7 @@ fn to_error(study: &StudyRecord, cheapest: &Cheapest) -> String {
         format!("{}, {}, error {error:.1e}", named(case), seconds(time))
     };
     let Some(case) = cheapest.case else {
-        let counts = |case: &&Case| case.status == Status::Done && case.kind != Kind::Grid;
-        let errors = study.cases.iter().filter(counts).filter_map(|case| case.errors.get(&study.norm).copied());
+        let errors = stable(&study.cases, &study.norm, 0.0, study.clock).map(|(.., error)| error);
         let least = errors.fold(f64::INFINITY, f64::min);
         return unreached(cheapest.error, least, study.yardstick.stated.get(&study.norm).copied());
     };

@@ -123,6 +123,11 @@ impl<'a> Batch<'a> {
             let given = usize::try_from((*view).struct_size).unwrap_or(0);
             (given >= size_of::<View>()).then(|| &*view)?
         };
+        Self::of(view)
+    }
+
+    #[inline(always)]
+    fn of(view: &'a View) -> Option<Batch<'a>> {
         (view.points >= 0).then_some(Batch { view })
     }
 
@@ -139,7 +144,7 @@ impl<'a> Batch<'a> {
         // SAFETY: the caller promises `struct_size` bytes; of a shorter view that is what is copied.
         unsafe {
             let given = usize::try_from((*view).struct_size).unwrap_or(0);
-            Self::in_place(if given >= size_of::<View>() { view } else { Self::widened(view, given, room) })
+            Self::of(if given >= size_of::<View>() { &*view } else { Self::widened(view, given, room) })
         }
     }
 
@@ -154,9 +159,7 @@ impl<'a> Batch<'a> {
         // columns), and so is any prefix of one.
         unsafe {
             core::ptr::copy_nonoverlapping(view.cast::<u8>(), room.as_mut_ptr().cast::<u8>(), given);
-            let room = room.assume_init_mut();
-            room.struct_size = size_of::<View>() as i64;
-            room
+            room.assume_init_ref()
         }
     }
 
