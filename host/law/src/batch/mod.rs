@@ -139,6 +139,14 @@ impl Cursor<'_> {
         }
         &self.view
     }
+
+    /// Where the columns with a number a point go on behind the points of the last view, were there more of them.
+    pub(super) fn behind(&self) -> impl Iterator<Item = *const f64> {
+        let mut view = self.view;
+        let points = view.points as usize;
+        let columns = self.store.moving.iter().filter_map(move |field| column_of(&mut view, *field).copied());
+        columns.filter(|column| column.step == 1).map(move |column| behind(column, points).ptr)
+    }
 }
 
 /// Where the constants begin, and the inputs behind them.

@@ -90,6 +90,22 @@ fn every_increment_arrives_wherever_the_answers_and_the_batch_begin() {
 }
 
 #[test]
+fn what_is_fetched_ahead_is_what_the_law_reads_next() {
+    let law = law("");
+    let pressure = pressures(3 * PIECE);
+    let build = |values| Batch::builder(law.descriptor(), 3 * PIECE).field(Field::Pressure, values).build();
+    let whole = build(Values::PerPoint(&pressure)).expect("the column fits");
+    let batch = whole.range(5..3 * PIECE);
+    let mut cursor = batch.cursor(0);
+    cursor.at(&(0..PIECE));
+    let ahead: Vec<_> = cursor.behind().collect();
+    assert_eq!(ahead, [cursor.at(&(PIECE..2 * PIECE)).pressure.ptr]);
+    assert_eq!(ahead, [pressure[5 + PIECE..].as_ptr()]);
+    let same = build(Values::Uniform(1.0)).expect("one number fits");
+    assert_eq!(same.cursor(0).behind().count(), 0, "one number for all points does not move");
+}
+
+#[test]
 fn a_bad_increment_is_named_with_its_point() {
     let mut pressure = pressures(4 * PIECE);
     let spike = 3 * PIECE + 9;
