@@ -5,13 +5,14 @@ use super::error::ConformanceError;
 
 /// The checks that `names` stand for, all if there are none.
 ///
-/// A name is a check's (`values/finite`) or a group's (`values`); several may stand in one word, with commas.
+/// A name is a check's (`values/finite`) or a group's (`values`, or `values/*`); several may stand in one word, with commas.
 ///
 /// # Errors
 /// A name that neither a check nor a group has.
 pub fn select(names: &[String]) -> Result<Vec<Check>, ConformanceError> {
     let mut wanted: Vec<Check> = Vec::new();
-    for name in names.iter().flat_map(|word| word.split(',')).map(str::trim).filter(|name| !name.is_empty()) {
+    for word in names.iter().flat_map(|word| word.split(',')).map(str::trim).filter(|name| !name.is_empty()) {
+        let name = word.strip_suffix("/*").unwrap_or(word);
         let found: Vec<Check> = Check::ALL
             .iter()
             .copied()
@@ -49,6 +50,7 @@ mod tests {
         assert_eq!(names(&[]).len(), Check::ALL.len());
         assert_eq!(names(&["values/finite,load/opens"]), ["load/opens", "values/finite"]);
         assert_eq!(names(&["derivative", "derivative/kinks"]).len(), 3);
+        assert_eq!(names(&["derivative/*"]), names(&["derivative"]));
     }
 
     #[test]

@@ -123,6 +123,11 @@ fn unlike(law: &LawDescriptor, zero: f64, last: Option<(Case, Option<AtPoint>)>,
         None => Finding::new(what).with("a temperature out of its bounds", expected),
         Some((case, found)) => {
             let found = found.map_or_else(|| "refused".to_owned(), |found| text(&found));
+            let read = [Field::Temperature, Field::CounterTemperature].into_iter();
+            let kelvin = read
+                .filter(|field| law.fields().contains(*field))
+                .map(|field| format!("`{}` {}", field.name(), number_text(case.point(0).scalar(field) + zero)));
+            let expected = format!("{expected} with {}", kelvin.collect::<Vec<_>>().join(" and "));
             Finding::new(what).with(found, expected).at(case.named(law, 0))
         }
     }
