@@ -71,6 +71,44 @@ fn the_list_has_every_check_and_needs_no_law() {
     assert_eq!(document.as_array().map(Vec::len), Some(Check::ALL.len()));
 }
 
+/// Running-in over work with the state of the start of the substep, or over the substep: `RUN_IN` is the one or the other.
+const RUNNING_IN: &str = r#"
+#define LAW_NAME "running-in"
+#define LAW_VERSION "1.0"
+#define LAW_SUMMARY "wear from friction work, more of it at first"
+#define LAW_READS(F) F(friction_work)
+#define LAW_CONSTANTS(C)                                                      \
+    C(alpha, WL_PER_PASCAL, WL_FROM(0), WL_REQUIRED, "wear of work")          \
+    C(a0, WL_NUMBER, WL_FROM(0), 1, "how much more a new surface wears")      \
+    C(W0, WL_JOULE_PER_SQUARE_METRE, WL_ABOVE(0), WL_REQUIRED, "work of running in")
+#define LAW_STATE(C) C(W, WL_JOULE_PER_SQUARE_METRE, WL_FROM(0), 0, "work so far")
+#define LAW_CLAIMS WL_CLAIM_LINEAR_IN_DT
+#include "wearlaw_point.h"
+WL_POINT {
+    double fresh = exp(-s->W / c->W0) * RUN_IN;
+    out->increment = c->alpha * (in->friction_work + (c->a0 - 1) * fresh);
+    out->state.W = s->W + in->friction_work;
+    return isfinite(out->increment + out->state.W) ? WL_OK : WL_OUT_OF_DOMAIN;
+}
+"#;
+
+#[test]
+fn a_claim_that_a_default_makes_true_is_tried_with_other_constants_and_over_long_times() {
+    let here = folder();
+    for (name, run_in) in [("held", "in->friction_work"), ("exact", "c->W0 * -expm1(-in->friction_work / c->W0)")] {
+        write(here.path(), &format!("{name}.c"), &RUNNING_IN.replace("RUN_IN", run_in));
+        let built = run(here.path(), &["build", &format!("{name}.c"), "-o", &format!("{name}.so")]);
+        assert_eq!(built.code, 0, "{}", built.stderr);
+    }
+    for seed in 1..9 {
+        let seed = seed.to_string();
+        let check = |law| run(here.path(), &["check", law, "--only", "physics/linear-in-dt", "--seed", &seed]);
+        let (held, exact) = (check("./held.so"), check("./exact.so"));
+        assert_eq!(held.code, 1, "seed {seed}: {}", held.stdout);
+        assert_eq!(exact.code, 0, "seed {seed}: {}", exact.stdout);
+    }
+}
+
 #[test]
 fn what_is_no_law_or_no_check_ends_with_2() {
     let here = folder();

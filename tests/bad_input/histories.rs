@@ -30,7 +30,10 @@ fn a_mistake_in_a_history_has_its_place() {
         ("time,point,pressure,velocity,nx\n0,7,1,1,1\n1,7,1,1,1\n", &["`nx` without `nz`", "nx, ny, nz"]),
         ("time,point,pressure,velocty\n0,7,1,1\n1,7,1,1\n", &["unknown column `velocty`", "`velocity`", "column 4"]),
         ("time,point,presure,velocity\n0,7,1,1\n1,7,1,1\n", &["unknown column `presure`", "`pressure`"]),
-        ("time,point,velocity\n0,7,1\n1,7,1\n", &["no column `pressure`", "time, point, velocity"]),
+        (
+            "time,point,velocity\n0,7,1\n1,7,1\n",
+            &["no column `pressure` (above zero it says where there is contact", "time, point, velocity"],
+        ),
         ("time,pressure,velocity\n0,1,1\n1,1,1\n", &["no column `point`"]),
         ("point,pressure,velocity\n7,1,1\n7,1,1\n", &["no column `time`"]),
         ("time,point,pressure,pressure,velocity\n0,7,1,1,1\n", &["column `pressure` is given twice"]),

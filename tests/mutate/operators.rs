@@ -72,7 +72,9 @@ pub fn mutants(subject: &Subject) -> Vec<Mutant> {
         let line = text[start..].lines().next().unwrap_or_default();
         // What a refusal says is no arithmetic.
         let words = ["REFUSE", "refuse(", "%text", ".text", "say(", "assert"].iter().any(|word| line.contains(word));
-        !words && subject.lines_with.is_none_or(|word| line.contains(word))
+        !words
+            && subject.lines_with.is_none_or(|word| line.contains(word))
+            && !subject.not_run.iter().any(|word| line.contains(word))
     };
     let mut found = Vec::new();
     for index in 0..all.len() {

@@ -235,7 +235,7 @@ pub(super) struct CheckArguments {
     /// Run only these checks or groups, such as values/finite or memory; may be repeated
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub(super) only: Vec<String>,
-    /// Leave out the checks that take long (a star in --list marks those that stay)
+    /// Leave out the checks that take long (a † in --list marks them)
     #[arg(long)]
     pub(super) quick: bool,
     /// Seed of the random inputs

@@ -16,7 +16,8 @@
 WL_POINT {
     double scale = WL_HAS(in, temperature) ? in->temperature - in->call->absolute_zero : 3;
     double slip = in->slip_vector[0] + 2 * in->slip_vector[1] + 3 * in->slip_vector[2];
-    double slope = c->k * slip * in->film * in->humidity * scale;
+    double twice = WL_HAS(in, point_id) && in->point_id % 2 ? 2 : 1;
+    double slope = c->k * slip * in->film * in->humidity * scale * twice;
     out->d_pressure = in->contact_state == WL_OPEN ? 0 : slope;
     out->increment = out->d_pressure * in->pressure;
     if (WL_HAS(in, tangent)) {

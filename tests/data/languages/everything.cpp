@@ -22,7 +22,8 @@ struct Everything : Law<Everything> {
     int32_t point(const In &in, const C &c, const S &s, Out &out) const {
         const double scale = in.has<Temperature>() ? in.temperature - in.call->absolute_zero : 3;
         const double slip = in.slip_vector[0] + 2 * in.slip_vector[1] + 3 * in.slip_vector[2];
-        const double slope = c.k * slip * in.film * in.humidity * scale;
+        const double twice = in.has<PointId>() && in.point_id % 2 ? 2 : 1;
+        const double slope = c.k * slip * in.film * in.humidity * scale * twice;
         out.d_pressure = in.contact_state == WL_OPEN ? 0 : slope;
         out.increment = out.d_pressure * in.pressure;
         if (in.has<Tangent>()) {

@@ -19,11 +19,13 @@ contains
     real(c_double), intent(in) :: c(*)
     real(c_double), intent(inout) :: s(*)
     type(wl_out), intent(inout) :: out
-    real(c_double) :: scale, slip
+    real(c_double) :: scale, slip, twice
     scale = 3
+    twice = 1
+    if (wl_has(in, WL_FIELD_POINT_ID)) twice = 1 + modulo(in%point_id, 2_c_int64_t)
     if (wl_has(in, WL_FIELD_TEMPERATURE)) scale = in%temperature - in%absolute_zero
     slip = in%slip_vector(1) + 2 * in%slip_vector(2) + 3 * in%slip_vector(3)
-    if (in%contact_state /= WL_OPEN) out%d_pressure = c(1) * slip * in%input(1) * in%input(2) * scale
+    if (in%contact_state /= WL_OPEN) out%d_pressure = c(1) * slip * in%input(1) * in%input(2) * scale * twice
     out%increment = out%d_pressure * in%pressure
     if (wl_has(in, WL_FIELD_TANGENT)) out%direction = [in%tangent(3), in%tangent(1), in%tangent(2)]
     s(1) = s(1) + out%increment

@@ -31,7 +31,8 @@ impl PointLaw for Everything {
         let ([k], [film, humidity], [total, calls]) = (at.constants(), at.inputs(), at.state());
         let scale = if at.temperature.is_nan() { 3.0 } else { at.temperature - at.absolute_zero };
         let slip = at.slip_vector[0] + 2.0 * at.slip_vector[1] + 3.0 * at.slip_vector[2];
-        let slope = k * slip * film * humidity * scale;
+        let twice = if at.point_id >= 0 && at.point_id % 2 != 0 { 2.0 } else { 1.0 };
+        let slope = k * slip * film * humidity * scale * twice;
         out.d_pressure = if at.contact_state == WL_OPEN { 0.0 } else { slope };
         out.increment = out.d_pressure * at.pressure;
         if !at.tangent[0].is_nan() {

@@ -61,7 +61,8 @@ def everything(x):
     warm = x["temperature"]
     scale = 3 if warm is None else warm - x["absolute_zero"]
     slip = x["slip_vector_x"] + 2 * x["slip_vector_y"] + 3 * x["slip_vector_z"]
-    slope = 0 if x["contact_state"] == 0 else x["k"] * slip * x["film"] * x["humidity"] * scale
+    twice = 2 if x["point_id"] is not None and x["point_id"] % 2 else 1
+    slope = 0 if x["contact_state"] == 0 else x["k"] * slip * x["film"] * x["humidity"] * scale * twice
     turned = [x["tangent_z"], x["tangent_x"], x["tangent_y"]]
     if turned[0] is None:
         turned = [-x[f"normal_{axis}"] for axis in "xyz"]
@@ -75,7 +76,7 @@ def everything_rows():
     pressures = [1.0, 3.5e6, 9.5e7, 2e8, -0.5, -2.0, 8.1e3]
     for row in range(28):
         x = [numbers[(3 * row + at) % 13] * (1 + row / 64) for at in range(13)]
-        warm, turned, numbered = row % 2 == 0, row % 4 < 2, row % 3 == 0
+        warm, turned, numbered = row % 2 == 0, row % 4 < 2, row % 3 != 2
         yield {
             "k": abs(x[0]) / 16, "film": abs(x[1]), "humidity": x[2], "total_start": x[3], "calls_start": float(row),
             "pressure": pressures[row % 7], "contact_state": row % 3,

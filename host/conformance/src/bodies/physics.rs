@@ -80,9 +80,8 @@ pub(super) fn zero_without_slip(bench: &Bench) -> Judged {
     })
 }
 
-/// A k-th of a substep: what is travelled and dissipated goes with the time, rates stay.
-fn part(case: &Case, parts: usize) -> Case {
-    let factor = 1.0 / parts as f64;
+/// A substep so many times as long: what is travelled and dissipated goes with the time, rates stay.
+fn lasting(case: &Case, factor: f64) -> Case {
     let mut part = case.map(|point| {
         for field in [Field::Slip, Field::SlipVector, Field::FrictionWork] {
             point.scale(field, factor);
@@ -94,7 +93,7 @@ fn part(case: &Case, parts: usize) -> Case {
 
 /// Wear of a substep in equal parts, one after the other; none if one of them is refused.
 fn in_parts(law: &Law<'_>, instance: &Instance<'_>, case: &Case, parts: usize) -> Option<f64> {
-    let mut part = part(case, parts);
+    let mut part = lasting(case, 1.0 / parts as f64);
     let mut sum = 0.0;
     for _ in 0..parts {
         let answers = ask(&law.about, instance, &part, &Layout::plain(&law.about));
@@ -107,44 +106,58 @@ fn in_parts(law: &Law<'_>, instance: &Instance<'_>, case: &Case, parts: usize) -
     Some(sum)
 }
 
+/// Durations, over an ordinary one, of which one moves a state by its own size, whatever that is.
+const WITH_STATE: [f64; 5] = [1.0, 1e3, 1e6, 1e9, 1e12];
+/// Sets of constants: with one that a default makes idle, such as a factor of 1, a claim may hold that is none otherwise.
+const SETS: usize = 4;
+
 /// One substep against its parts; the observed order where it is not claimed.
 pub(super) fn linear_in_dt(bench: &Bench) -> Judged {
     bench.with(|law, instance| {
         let case = bench.good(law, instance, POINTS)?;
-        let is_claimed = law.about.claims(Claim::LinearInDt);
-        if !is_claimed {
+        if !law.about.claims(Claim::LinearInDt) {
             return skip(match order(law, instance, &case) {
                 Some(order) => format!("the law does not claim `linear_in_dt` (observed: dt to the power {order:.2})"),
                 None => "the law does not claim `linear_in_dt`".to_owned(),
             });
         }
-        for index in 0..case.count {
-            let single = case.single(index);
-            let Some(whole) = in_parts(law, instance, &single, 1) else { continue };
-            for parts in [2, 7, 64] {
-                let Some(sum) = in_parts(law, instance, &single, parts) else { continue };
-                if agree(sum, whole, TOLERANCE) {
-                    continue;
-                }
-                let what = format!(
-                    "{parts} parts of a substep wear otherwise than the whole, and the law claims `linear_in_dt`"
-                );
-                let finding = Finding::new(what).at(single.named(&law.about, 0));
-                return broken(finding.with(
-                    format!("{} in {parts} parts", number_text(sum)),
-                    format!("{} as in one", number_text(whole)),
-                ));
+        let known = bench.known_constants(law);
+        let mut sampler = bench.sampler(law, &known);
+        for case in (0..SETS).map_while(|_| sampler.good(instance, POINTS)) {
+            if let Some(finding) = unequal_parts(law, instance, &case) {
+                return broken(finding);
             }
         }
         Ok(Verdict::Pass(None))
     })
 }
 
+/// The first point and duration at which a substep wears otherwise than its parts.
+fn unequal_parts(law: &Law<'_>, instance: &Instance<'_>, case: &Case) -> Option<Finding> {
+    let durations = if law.about.state.is_empty() { &WITH_STATE[..1] } else { &WITH_STATE };
+    for (index, factor) in (0..case.count).flat_map(|index| durations.iter().map(move |factor| (index, *factor))) {
+        let single = lasting(&case.single(index), factor);
+        let Some(whole) = in_parts(law, instance, &single, 1) else { continue };
+        for parts in [2, 7, 64] {
+            let Some(sum) = in_parts(law, instance, &single, parts) else { continue };
+            if agree(sum, whole, TOLERANCE) {
+                continue;
+            }
+            let what =
+                format!("{parts} parts of a substep wear otherwise than the whole, and the law claims `linear_in_dt`");
+            let found = format!("{} in {parts} parts", number_text(sum));
+            let finding = Finding::new(what).at(single.named(&law.about, 0));
+            return Some(finding.with(found, format!("{} as in one", number_text(whole))));
+        }
+    }
+    None
+}
+
 /// The observed power of dt: 1 for a law that is linear in it.
 fn order(law: &Law<'_>, instance: &Instance<'_>, case: &Case) -> Option<f64> {
     let single = case.single(case.count - 1);
     let whole = in_parts(law, instance, &single, 1)?;
-    let answers = ask(&law.about, instance, &part(&single, 2), &Layout::plain(&law.about));
+    let answers = ask(&law.about, instance, &lasting(&single, 0.5), &Layout::plain(&law.about));
     let order = (whole / answers.increment[0]).log2();
     (answers.is_good() && order.is_finite()).then_some(order)
 }

@@ -204,7 +204,8 @@ impl Table {
     pub fn misfit(&self, law: &LawDescriptor) -> Option<String> {
         let known = known_heads(law);
         if let Some(head) = self.heads.iter().find(|head| !known.contains(head)) {
-            return Some(format!("{}: column `{head}` means nothing to law `{}`", self.origin, law.name));
+            let hint = meant(head, &known);
+            return Some(format!("{}: column `{head}` means nothing to law `{}`{hint}", self.origin, law.name));
         }
         if let Some(head) = self.heads.iter().find(|head| known.iter().filter(|one| one == head).count() > 1) {
             let words = "stands for two of its quantities: one of them needs another name";
@@ -282,6 +283,23 @@ fn uneven(error: &csv::Error, origin: &str) -> String {
         }
         _ => format!("{origin}: {error}"),
     }
+}
+
+/// What was probably meant by a head that is not known, or why it is not.
+fn meant(head: &str, known: &[String]) -> String {
+    let ending = format!("{head}_");
+    let longer: Vec<String> =
+        known.iter().filter(|one| one.starts_with(&ending)).map(|one| format!("`{one}`")).collect();
+    if !longer.is_empty() {
+        return format!("; did you mean {}?", longer.join(", "));
+    }
+    let reads = |field: &Field| heads_of(field.name(), field.shape().width()).iter().any(|one| one == head);
+    if Field::ALL.iter().any(reads) {
+        return ", which does not read that field".to_owned();
+    }
+    let distance = |one: &&String| strsim::damerau_levenshtein(head, one);
+    let nearest = known.iter().min_by_key(distance).filter(|one| distance(one) <= 1 + one.len() / 4);
+    nearest.map_or_else(String::new, |one| format!("; did you mean `{one}`?"))
 }
 
 /// Whether a column holds what a law answers.
@@ -381,6 +399,15 @@ mod tests {
         let misfit = |text: &str| Table::parse(text, "t").unwrap().misfit(&law).unwrap();
         assert!(misfit("K,H,pressure,velocity,dt,increments\n1,1,1,1,1,1\n").contains("`increments`"));
         assert!(misfit("K,H,pressure,dt,increment\n1,1,1,1,1\n").contains("`velocity`"));
+        for (head, words) in [
+            ("increments", "; did you mean `increment`?"),
+            ("direction", "; did you mean `direction_x`, `direction_y`, `direction_z`?"),
+            ("slip", ", which does not read that field"),
+            ("nonsense", "means nothing to law `archard`"),
+        ] {
+            let told = misfit(&format!("K,H,pressure,velocity,{head}\n1,1,1,1,1\n"));
+            assert!(told.ends_with(words), "{told}");
+        }
         assert!(Table::parse("K\nx\n", "t").unwrap_err().contains("t, line 2: `x` below `K`"));
         let refused = |text: &str| Table::parse(text, "t").unwrap_err();
         assert_eq!(refused("K,H\n1,1\n1\n"), "t, line 3: 1 cells, expected 2 as in the line of the names");

@@ -36,7 +36,7 @@ pub enum HistoryError {
     #[error("{}: column `{name}` is given twice{}", path.display(), place(*line, *column))]
     RepeatedColumn { path: PathBuf, name: String, line: u64, column: usize },
     /// A column that is always needed, or that the plan asked for, is not there.
-    #[error("{}: no column `{name}`, found {}", path.display(), list(found))]
+    #[error("{}: no column `{name}`{}, found {}", path.display(), purpose(name), list(found))]
     MissingColumn { path: PathBuf, name: String, found: Vec<String> },
     /// Two columns that say the same thing in different ways.
     #[error("{}: both `{first}` and `{second}` are given, expected one of them", path.display())]
@@ -142,6 +142,15 @@ fn suggestion(nearest: &Option<String>) -> String {
     match nearest {
         Some(name) => format!("; did you mean `{name}`?"),
         None => "; the law declares no input of that name".to_string(),
+    }
+}
+
+/// What a column is for that a law may do without.
+fn purpose(name: &str) -> &'static str {
+    if name == "pressure" {
+        " (above zero it says where there is contact, whether or not the law reads it)"
+    } else {
+        ""
     }
 }
 

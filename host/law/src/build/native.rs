@@ -12,8 +12,9 @@ use super::{Aside, BuildError, BuildRequest, Language, headers, library_file_nam
 const COMPILE_FLAGS: [&str; 4] = ["-ffp-contract=off", "-fvisibility=default", "-fno-math-errno", "-fno-trapping-math"];
 
 /// For Fortran: without the first, gfortran takes the vector library's `pow` in full vectors and the scalar one in what
-/// is left over, so that bits depend on the batch. The second is for the many arguments that one form of procedure has.
-const FORTRAN_FLAGS: [&str; 2] = ["-nostdinc", "-Wno-unused-dummy-argument"];
+/// is left over, so that bits depend on the batch. The second is for the many arguments that one form of procedure has, the
+/// last because all else follows from the first few errors, as in the helper when a declaration is wrong.
+const FORTRAN_FLAGS: [&str; 3] = ["-nostdinc", "-Wno-unused-dummy-argument", "-fmax-errors=3"];
 
 /// Compiles each source with its language's compiler and links the objects.
 pub(super) fn build(request: &BuildRequest, sources: &[(PathBuf, Language)]) -> Result<(PathBuf, Log), BuildError> {
