@@ -234,6 +234,8 @@ fn the_page_of_a_run_holds_everything_and_needs_nothing() {
         "Largest wear depth",
         "4.5×10⁻⁷ m",
         "Run time",
+        "Estimated error",
+        "relative L2 error of the wear depth: steps in time, not the law",
         "<svg",
         "temperatures",
         "SHA-256 of the history",
@@ -242,7 +244,7 @@ fn the_page_of_a_run_holds_everything_and_needs_nothing() {
     ] {
         assert!(page.contains(part), "{part} in {page}");
     }
-    for part in ["<script", "src=", "href=", "url(", "@import"] {
+    for part in ["<script", "src=", "href=", "url(", "@import", "none; estimated"] {
         assert!(!page.contains(part), "{part}");
     }
     for element in

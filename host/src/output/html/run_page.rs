@@ -37,6 +37,9 @@ pub fn write_run_page(run: &RunPage<'_>, path: &Path) -> Result<(), OutputError>
     run.page(&svg).write(path)
 }
 
+/// How a report says that there is no reference, before what the error is estimated of.
+const ESTIMATED: &str = "none; estimated: ";
+
 impl RunPage<'_> {
     fn page(&self, svg: &str) -> Page {
         let RunPage { report, figure, .. } = self;
@@ -86,8 +89,13 @@ impl RunPage<'_> {
             None => "not known".to_owned(),
         };
         let norm = report.error["norm"].as_str().unwrap_or("no reference, no estimate");
-        let reference = report.error["reference"].as_str().map_or_else(String::new, |name| format!(", {name}"));
-        figures.push(("Error", error, format!("{norm}{reference}")));
+        let reference = report.error["reference"].as_str().unwrap_or_default();
+        let (name, compared) = match reference.strip_prefix(ESTIMATED) {
+            Some(causes) => ("Estimated error", format!("{norm}: {causes}, not the law")),
+            None if reference.is_empty() => ("Error", norm.to_owned()),
+            None => ("Error", format!("{norm}, against {reference}")),
+        };
+        figures.push((name, error, compared));
         let steps = format!("{} steps", report.cost.steps);
         figures.push(("Run time", with_unit(report.cost.run_time_s, "s"), steps));
         figures
@@ -123,8 +131,10 @@ impl RunPage<'_> {
         let error = &self.report.error;
         let shown = |value: &Value| value.as_f64().map_or_else(|| "-".to_owned(), number);
         let fields = error["by_field"].as_object().cloned().unwrap_or_default();
-        if !fields.is_empty() {
-            page.heading(&format!("Error: {}", error["reference"].as_str().unwrap_or_default()));
+        let reference = error["reference"].as_str().unwrap_or_default();
+        // What is estimated has its own table below.
+        if !fields.is_empty() && !reference.starts_with(ESTIMATED) {
+            page.heading(&format!("Error: against {reference}"));
             let rows: Vec<Vec<String>> = fields
                 .iter()
                 .map(|(name, value)| {
