@@ -20,7 +20,7 @@ const TOLERANCE: f64 = 1e-8;
 type Case = (&'static str, &'static str, usize, usize);
 
 const SMALL: [Case; 3] = [("hertz", "periodic", 64, 1), ("hertz", "free", 64, 1), ("rough", "periodic", 64, 1)];
-const MEASURED: [Case; 19] = [
+const MEASURED: [Case; 22] = [
     ("hertz", "periodic", 256, 1),
     ("hertz", "periodic", 512, 1),
     ("hertz", "periodic", 1024, 1),
@@ -36,8 +36,11 @@ const MEASURED: [Case; 19] = [
     ("rough", "periodic", 2048, 1),
     ("rough", "periodic", 1024, 2),
     ("rough", "periodic", 2048, 2),
+    ("rough", "free", 256, 1),
+    ("rough", "free", 512, 1),
     ("rough", "free", 1024, 1),
     ("rough", "free", 1024, 2),
+    ("rough", "free", 2048, 1),
     ("rough", "free", 4096, 1),
     ("rough", "free", 4096, 2),
 ];
