@@ -110,6 +110,21 @@ fn a_claim_that_a_default_makes_true_is_tried_with_other_constants_and_over_long
 }
 
 #[test]
+fn a_law_that_forgets_the_zero_of_the_scale_is_shown_its_temperature_in_kelvin() {
+    let here = folder();
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plugins/faulty/forgets_absolute_zero.c");
+    let built = run(here.path(), &["build", source.to_str().expect("a path"), "-o", "forgets.so"]);
+    assert_eq!(built.code, 0, "{}", built.stderr);
+    let told = run(here.path(), &["check", "./forgets.so", "--only", "physics/*", "--json"]);
+    let document = json(&told.stdout);
+    assert_eq!(outcomes(&document, "fail"), ["physics/temperature-scale"]);
+    let expected = of(&document, "physics/temperature-scale")["expected"].as_str().expect("a text");
+    let kelvin = expected.split("`temperature` ").nth(1).and_then(|text| text.split(' ').next());
+    let kelvin: f64 = kelvin.and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{expected}"));
+    assert!((280.0..420.0).contains(&kelvin), "{expected}");
+}
+
+#[test]
 fn what_is_no_law_or_no_check_ends_with_2() {
     let here = folder();
     write(here.path(), "text.so", "no library");

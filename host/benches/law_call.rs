@@ -17,6 +17,8 @@ use wearlaw::law::{
     Source, Values,
 };
 
+/// Points from which on the memory decides.
+const MANY: usize = 100_000;
 const DT: f64 = 0.125;
 const K: f64 = 1e-4;
 const H: f64 = 2e9;
@@ -118,10 +120,10 @@ fn calls(archard: &LawInstance, raw_archard: &RawLaw, [c_library, rust_library]:
             Box::new(|calls| evaluate_again(calls, &rust, &batches[2], &mut w())),
         ];
         let effort = if points < 64 { 20_000 * points } else { 1 << 19 };
-        let rounds = if points > 100_000 { rounds.div_ceil(27) } else { rounds };
+        let rounds = if points > MANY { (rounds * MANY / 2).div_ceil(points) } else { rounds };
         // Several calls in a row: a side that writes past the caches leaves the next one without its answers there.
         let times = in_turns(rounds, if is_measured() { (effort / points).max(8) } else { 1 }, &mut sides);
-        let time = |t: &Times| if points > 100_000 { t.median() } else { t.least() };
+        let time = |t: &Times| if points > MANY { t.median() } else { t.least() };
         let base = time(&times[0]);
         let cell = |t: &Times| format!("{:>8.3} ({:>6.3})", time(t) * 1e9 / points as f64, time(t) / base);
         let row: Vec<String> = times.iter().map(cell).collect();

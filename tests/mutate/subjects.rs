@@ -4,6 +4,8 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use wearlaw::law::Field;
+
 /// A file of a law, and which parts of it are mutated.
 #[derive(Clone, Debug)]
 pub struct Subject {
@@ -22,7 +24,7 @@ pub struct Subject {
     /// Only lines with this word are mutated.
     pub lines_with: Option<&'static str>,
     /// Lines with one of these words are not mutated.
-    pub not_run: &'static [&'static str],
+    pub not_run: Vec<String>,
     /// Names that may be taken for one another.
     pub names: Vec<&'static [&'static str]>,
 }
@@ -55,7 +57,7 @@ impl Subject {
             regions: vec![whole],
             declarations: Vec::new(),
             lines_with: None,
-            not_run: &[],
+            not_run: Vec::new(),
             names: names.to_vec(),
         }
     }
@@ -72,7 +74,7 @@ impl Subject {
             regions: Vec::new(),
             declarations,
             lines_with: None,
-            not_run: &[],
+            not_run: Vec::new(),
             names: names.to_vec(),
         };
         subject.regions = marks.iter().map(|(from, to)| subject.between(from, to)).collect();
@@ -96,7 +98,7 @@ impl Subject {
     }
 
     /// Without the lines with one of these words, in which a mistake changes nothing.
-    fn without(mut self, words: &'static [&'static str]) -> Self {
+    fn without(mut self, words: Vec<String>) -> Self {
         self.not_run = words;
         self
     }
@@ -123,27 +125,17 @@ fn has_fortran() -> bool {
     std::process::Command::new(compiler).arg("--version").output().is_ok()
 }
 
-/// What the lines hold, in the helper in Fortran, that are for fields which the laws `everything` neither read nor use, so
-/// that they are not run; and the extents of pointers, at which nobody looks.
-const NOT_RUN: &[&str] = &[
-    "%slip%",
-    "velocity",
-    "coordinates",
-    "counter_temperature",
-    "friction_stress",
-    "friction_coefficient",
-    "friction_work",
-    "accumulated_wear",
-    "accumulated_slip",
-    "nodal_traction",
-    "gap",
-    "area",
-    "element_id",
-    "steps(3)",
-    "steps(5)",
-    "steps(8)",
-    "c_f_pointer",
-];
+/// Fields that the laws `everything` read or use.
+const EVERYTHING: [&str; 7] =
+    ["pressure", "normal", "contact_state", "slip_vector", "temperature", "tangent", "point_id"];
+
+/// Words of the lines of the helper in Fortran that no law `everything` runs, because they are for other fields (some by
+/// their place among the vectors and indices), or in which nobody looks at a mistake: the extents of pointers.
+fn not_run() -> Vec<String> {
+    let others = Field::ALL.iter().map(|field| field.name()).filter(|name| !EVERYTHING.contains(name));
+    let words = ["steps(3)", "steps(5)", "steps(8)", "c_f_pointer"].map(str::to_owned);
+    others.map(|name| format!("%{name}%")).chain(words).collect()
+}
 
 /// The end of a file's last function, which no text has.
 const END: &str = "\u{0}";
@@ -212,7 +204,7 @@ pub fn subjects() -> Vec<Subject> {
         all.push(
             Subject::new(fortran, "include/wearlaw_point_loop.inc", &[("subroutine", END)], &[])
                 .lines_with("step")
-                .without(NOT_RUN)
+                .without(not_run())
                 .by_everything("everything.f90", "everything-fortran"),
         );
     } else {

@@ -77,6 +77,14 @@ pub enum ConformanceError {
     Interrupted,
 }
 
-fn suggestion(nearest: &Option<String>) -> String {
+/// The name that differs by a slip of the fingers.
+pub(super) fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<String> {
+    let distance = |known: &&str| strsim::damerau_levenshtein(name, known);
+    let found = known.min_by_key(distance)?;
+    (distance(&found) <= 1 + found.len() / 4).then(|| found.to_owned())
+}
+
+/// A question for the name that was probably meant.
+pub(super) fn suggestion(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }

@@ -1,7 +1,7 @@
 //! Which checks are meant by the names on the command line.
 
 use super::check::{Check, Group};
-use super::error::ConformanceError;
+use super::error::{ConformanceError, nearest};
 
 /// The checks that `names` stand for, all if there are none.
 ///
@@ -19,7 +19,7 @@ pub fn select(names: &[String]) -> Result<Vec<Check>, ConformanceError> {
             .filter(|check| check.name() == name || check.facts().group.name() == name)
             .collect();
         if found.is_empty() {
-            return Err(ConformanceError::NoSuchCheck { name: name.to_owned(), nearest: nearest(name) });
+            return Err(ConformanceError::NoSuchCheck { name: name.to_owned(), nearest: nearest_check(name) });
         }
         wanted.extend(found);
     }
@@ -27,13 +27,10 @@ pub fn select(names: &[String]) -> Result<Vec<Check>, ConformanceError> {
     Ok(Check::ALL.iter().copied().filter(|check| all || wanted.contains(check)).collect())
 }
 
-/// A name that differs by a slip of the fingers.
-pub(super) fn nearest(name: &str) -> Option<String> {
+/// The check or group that was probably meant.
+pub(super) fn nearest_check(name: &str) -> Option<String> {
     let groups = Group::ALL.iter().map(|group| group.name());
-    let names = Check::ALL.iter().map(|check| check.name()).chain(groups);
-    let distance = |known: &&str| strsim::damerau_levenshtein(name, known);
-    let found = names.min_by_key(distance)?;
-    (distance(&found) <= 1 + found.len() / 4).then(|| found.to_owned())
+    nearest(name, Check::ALL.iter().map(|check| check.name()).chain(groups))
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::check::Check;
-use super::error::ConformanceError;
-use super::selection::nearest;
+use super::error::{ConformanceError, suggestion};
+use super::selection::nearest_check;
 
 /// Checks that are switched off, and why.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,7 +29,7 @@ impl Waivers {
         let mut reasons = BTreeMap::new();
         for (name, value) in table {
             let Some(check) = Check::named(&name) else {
-                let hint = nearest(&name).map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                let hint = suggestion(&nearest_check(&name));
                 return Err(format!("found no check `{name}`{hint}"));
             };
             match value.as_str().map(str::trim) {

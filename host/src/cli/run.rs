@@ -24,7 +24,7 @@ use crate::output::{
     earlier_scene, write_history, write_plot, write_run_page,
 };
 use crate::plan::Plan;
-use crate::record::{End, HistoryRow, Record};
+use crate::record::{ESTIMATED, End, HistoryRow, Record};
 use crate::reference::NamedReference;
 use crate::scene::{Format, Override, Scene};
 use crate::solve::{ErrorNorm, Estimate, Run, SolveError};
@@ -263,7 +263,10 @@ fn summary(
 ) -> Summary {
     let shown = match error {
         Some(error) => Some((format!("against {}", error.reference), error.norm.clone(), error.value)),
-        None => estimate.norm().map(|error| (error.reference.replace("none; ", ""), error.norm, error.value)),
+        None => estimate.norm().map(|error| {
+            let causes = error.reference.strip_prefix(ESTIMATED).unwrap_or(&error.reference);
+            (format!("estimated: {causes}"), error.norm, error.value)
+        }),
     };
     Summary {
         title,

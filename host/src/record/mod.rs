@@ -22,7 +22,7 @@ pub use geometry::{Geometry, Grid, PointIds, Points};
 pub use history::{History, HistoryRow};
 pub use identity::{Difference, Identity, LawIdentity};
 pub use profile::{Line, Profile};
-pub use run::{Cost, End, Estimated, MemoryLine, Record, Stability};
+pub use run::{Cost, ESTIMATED, End, Estimated, MemoryLine, Record, Stability};
 pub use study::{
     Case, Cheapest, Clock, Errors, GridError, Kind, Limit, Order, Rung, Status, StudyRecord, Timing, Work, Yardstick,
     YardstickKind,

@@ -69,6 +69,9 @@ pub struct Stability {
     pub verdict: String,
 }
 
+/// How a report's error begins what it is compared with where there is no reference, before what was estimated.
+pub const ESTIMATED: &str = "none; estimated: ";
+
 /// Estimated relative errors at the end of a run, in the L2 norm over the points where they are of a field; `None`: not
 /// estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::reference::relative_l2;
 use super::{ErrorNorm, SolveError};
 use crate::plan::Plan;
-use crate::record::{End, Estimated, Observer, Record};
+use crate::record::{ESTIMATED, End, Estimated, Observer, Record};
 use crate::scene::ScalingKind;
 
 /// Order at which errors are taken to fall: below the formulas' own, because of moving edges.
@@ -64,7 +64,7 @@ impl Estimate {
             ("volume_relative", known.volume_relative),
         ];
         Some(ErrorNorm {
-            reference: format!("none; estimated: {causes}"),
+            reference: format!("{ESTIMATED}{causes}"),
             norm: "relative L2 error of the wear depth".to_owned(),
             value: known.wear_l2_relative?,
             by_field: named.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect(),

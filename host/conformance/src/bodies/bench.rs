@@ -76,14 +76,26 @@ impl Bench {
 
     /// A call of `count` good points.
     pub(super) fn good(&self, law: &Law<'_>, instance: &Instance<'_>, count: usize) -> Judged<Case> {
+        Ok(self.several(law, instance, count, 1)?.remove(0))
+    }
+
+    /// So many calls of `count` good points, each with constants of its own; fewer, but one, where the law refuses them.
+    pub(super) fn several(
+        &self,
+        law: &Law<'_>,
+        instance: &Instance<'_>,
+        count: usize,
+        calls: usize,
+    ) -> Judged<Vec<Case>> {
         let known = self.known_constants(law);
         let mut sampler = self.sampler(law, &known);
-        match sampler.good(instance, count) {
-            Some(case) => Ok(case),
-            None => {
-                skip("the law refused every ordinary input that was tried; rows in expected.csv give constants to try")
-            }
+        let cases: Vec<Case> = (0..calls).filter_map(|_| sampler.good(instance, count)).collect();
+        if cases.is_empty() {
+            return skip(
+                "the law refused every ordinary input that was tried; rows in expected.csv give constants to try",
+            );
         }
+        Ok(cases)
     }
 
     /// As [`Bench::good`], and the same where the constants with a default keep it, if there are such points.

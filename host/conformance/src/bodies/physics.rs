@@ -114,21 +114,18 @@ const SETS: usize = 4;
 /// One substep against its parts; the observed order where it is not claimed.
 pub(super) fn linear_in_dt(bench: &Bench) -> Judged {
     bench.with(|law, instance| {
-        let case = bench.good(law, instance, POINTS)?;
         if !law.about.claims(Claim::LinearInDt) {
+            let case = bench.good(law, instance, POINTS)?;
             return skip(match order(law, instance, &case) {
                 Some(order) => format!("the law does not claim `linear_in_dt` (observed: dt to the power {order:.2})"),
                 None => "the law does not claim `linear_in_dt`".to_owned(),
             });
         }
-        let known = bench.known_constants(law);
-        let mut sampler = bench.sampler(law, &known);
-        for case in (0..SETS).map_while(|_| sampler.good(instance, POINTS)) {
-            if let Some(finding) = unequal_parts(law, instance, &case) {
-                return broken(finding);
-            }
+        let cases = bench.several(law, instance, POINTS, SETS)?;
+        match cases.iter().find_map(|case| unequal_parts(law, instance, case)) {
+            Some(finding) => broken(finding),
+            None => Ok(Verdict::Pass(None)),
         }
-        Ok(Verdict::Pass(None))
     })
 }
 

@@ -18,6 +18,15 @@ const CALLS: usize = 3;
 /// Most quantities in kelvin, each of which may be a temperature or a difference of two.
 const MOST: usize = 10;
 
+/// Fields in the temperature scale.
+const TEMPERATURES: [Field; 2] = [Field::Temperature, Field::CounterTemperature];
+
+/// Those that a law reads or uses.
+fn temperatures(law: &LawDescriptor) -> impl Iterator<Item = Field> {
+    let fields = law.fields();
+    TEMPERATURES.into_iter().filter(move |field| fields.contains(*field))
+}
+
 /// The quantities of a law in kelvin: constants, inputs, then state variables, by their place in that order.
 fn in_kelvin(law: &LawDescriptor) -> Vec<usize> {
     let kelvin = |quantity: &Quantity| quantity.exponents == [0.0, 0.0, 0.0, 1.0];
@@ -30,7 +39,7 @@ fn in_kelvin(law: &LawDescriptor) -> Vec<usize> {
 fn moved(case: &Case, law: &LawDescriptor, zero: f64, moved: &[usize]) -> Option<Case> {
     let (constants, inputs) = (law.constants.len(), law.inputs.len());
     let mut case = case.map(|point| {
-        for field in [Field::Temperature, Field::CounterTemperature] {
+        for field in TEMPERATURES {
             point.set(field, 0, point.scalar(field) - zero);
         }
         for place in moved.iter().filter_map(|place| place.checked_sub(constants)) {
@@ -67,7 +76,7 @@ fn same(one: &AtPoint, other: &AtPoint) -> bool {
 pub(super) fn scale(bench: &Bench) -> Judged {
     bench.with(|law, instance| {
         let about = &law.about;
-        if ![Field::Temperature, Field::CounterTemperature].iter().any(|field| about.fields().contains(*field)) {
+        if temperatures(about).next().is_none() {
             return skip("the law reads no temperature");
         }
         let kelvin = in_kelvin(about);
@@ -78,11 +87,8 @@ pub(super) fn scale(bench: &Bench) -> Judged {
             |set: u32| kelvin.iter().enumerate().filter(move |(k, _)| set >> k & 1 != 0).map(|(_, place)| *place);
         let sets: Vec<Vec<usize>> = (0..1 << kelvin.len()).map(|set| chosen(set).collect()).collect();
         let mut fits = vec![true; sets.len()];
-        let known = bench.known_constants(law);
-        let mut sampler = bench.sampler(law, &known);
         let mut compared = 0;
-        for _ in 0..CALLS {
-            let Some(case) = sampler.good(instance, POINTS) else { break };
+        for case in bench.several(law, instance, POINTS, CALLS)? {
             for index in 0..case.count {
                 let single = case.single(index);
                 let Some(wanted) = answer(law, instance, &single) else { continue };
@@ -123,9 +129,7 @@ fn unlike(law: &LawDescriptor, zero: f64, last: Option<(Case, Option<AtPoint>)>,
         None => Finding::new(what).with("a temperature out of its bounds", expected),
         Some((case, found)) => {
             let found = found.map_or_else(|| "refused".to_owned(), |found| text(&found));
-            let read = [Field::Temperature, Field::CounterTemperature].into_iter();
-            let kelvin = read
-                .filter(|field| law.fields().contains(*field))
+            let kelvin = temperatures(law)
                 .map(|field| format!("`{}` {}", field.name(), number_text(case.point(0).scalar(field) + zero)));
             let expected = format!("{expected} with {}", kelvin.collect::<Vec<_>>().join(" and "));
             Finding::new(what).with(found, expected).at(case.named(law, 0))

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use wearlaw_plugin_api::abi;
 
+use super::super::error::{nearest, suggestion};
 use super::points::{Case, Point, number_text};
 use wearlaw_law::fields::Shape;
 use wearlaw_law::{CallNumbers, Field, Fields, LawDescriptor, Quantity};
@@ -297,9 +298,7 @@ fn meant(head: &str, known: &[String]) -> String {
     if Field::ALL.iter().any(reads) {
         return ", which does not read that field".to_owned();
     }
-    let distance = |one: &&String| strsim::damerau_levenshtein(head, one);
-    let nearest = known.iter().min_by_key(distance).filter(|one| distance(one) <= 1 + one.len() / 4);
-    nearest.map_or_else(String::new, |one| format!("; did you mean `{one}`?"))
+    suggestion(&nearest(head, known.iter().map(String::as_str)))
 }
 
 /// Whether a column holds what a law answers.

@@ -141,6 +141,19 @@ fn a_missing_symbol_shows_when_linking() {
 }
 
 #[test]
+fn of_many_errors_in_fortran_the_first_few_are_told() {
+    if !has_gfortran("of_many_errors_in_fortran_the_first_few_are_told") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let source = FORTRAN.replace("r = i + 1", "a = 1\n  b = 2\n  d = 3\n  e = 4\n  f = 5\n  r = i + 1");
+    let source = source.replace("use iso_c_binding\n", "use iso_c_binding\n  implicit none\n");
+    let failed = build(&request(folder.path(), &[("law.f90", &source)])).unwrap_err();
+    let told = failed.messages().matches("has no IMPLICIT type").count();
+    assert!((1..=3).contains(&told), "{told} of 5: {}", failed.messages());
+}
+
+#[test]
 fn a_missing_compiler_is_named_with_its_package() {
     let folder = tempfile::tempdir().unwrap();
     let missing = |name: &str| Some(format!("/nonexistent/{name}").into());

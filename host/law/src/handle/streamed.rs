@@ -16,8 +16,8 @@ use super::LawInstance;
 use super::float_guard::Guard;
 
 /// Points in a piece: with so few the law is read from and written to the nearest cache, into which what the law reads
-/// next is fetched while the increments are stored. On a linear law of two columns 512 is faster than 256 and 1024, by a
-/// tenth each, and than any without fetching ahead, by a fifth.
+/// next is fetched while the increments are stored. On a linear law of two columns 512 is faster than 256 and 1024, by
+/// some twentieth to a fifth, and than any without fetching ahead, by a sixth to a third.
 const PIECE: usize = 512;
 
 /// Bytes of the last cache where the system does not tell.

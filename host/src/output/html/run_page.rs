@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::Page;
 use crate::output::plot::{number, plot_svg, rounded};
 use crate::output::{Figure, OutputError, Report};
-use crate::record::{Cost, HistoryRow, Identity};
+use crate::record::{Cost, ESTIMATED, HistoryRow, Identity};
 
 /// Rows of the history that are shown at most.
 const ROWS: usize = 24;
@@ -36,9 +36,6 @@ pub fn write_run_page(run: &RunPage<'_>, path: &Path) -> Result<(), OutputError>
     let svg = plot_svg(&run.figure, path)?;
     run.page(&svg).write(path)
 }
-
-/// How a report says that there is no reference, before what the error is estimated of.
-const ESTIMATED: &str = "none; estimated: ";
 
 impl RunPage<'_> {
     fn page(&self, svg: &str) -> Page {

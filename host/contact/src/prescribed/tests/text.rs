@@ -179,7 +179,8 @@ fn every_fault_of_the_names_is_told() {
         ("time,pressure,velocity\n", "h.csv: no column `point`, found time, pressure, velocity"),
         (
             "time,point,velocity\n",
-            "h.csv: no column `pressure` (above zero it says where there is contact, whether or not the law reads it), found time, point, velocity",
+            "h.csv: no column `pressure` (above zero it says where there is contact, whether or not the law reads it), \
+             found time, point, velocity",
         ),
         ("time,point,pressure\n", "h.csv: no column `velocity`, found time, point, pressure"),
         ("time,point,pressure,velocity,slip\n", "h.csv: both `velocity` and `slip` are given, expected one of them"),
