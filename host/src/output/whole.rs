@@ -221,7 +221,8 @@ impl WholeFolder {
     /// run writes stays.
     ///
     /// A new folder appears by one rename. In an existing one the files are renamed one by one,
-    /// `report.json` taken away first and placed last, so that its presence says the rest is whole.
+    /// `report.json` taken away first and placed last, so that its presence says the rest is whole, and the checkpoint next
+    /// to it, so that the fields that it counts on are there whenever it is.
     ///
     /// # Errors
     /// `Io` or `InTheWay`; then the earlier result is as it was and the new one is gone.
@@ -248,8 +249,8 @@ impl WholeFolder {
         let mut new = results_in(aside, |_| true)?;
         let mut old = results_in(target, is_result)?;
         old.retain(|name| !self.kept.contains(name) || new.contains(name));
-        old.sort_by_key(|name| name != Path::new(REPORT));
-        new.sort_by_key(|name| name == Path::new(REPORT));
+        old.sort_by_key(|name| std::cmp::Reverse(counting(name)));
+        new.sort_by_key(|name| counting(name));
         let replaced = aside.join(REPLACED);
         for folder in [replaced.join(FIELDS), target.to_path_buf()] {
             fs::create_dir_all(&folder).map_err(OutputError::io("create", &folder))?;
@@ -268,6 +269,11 @@ impl WholeFolder {
         }
         Ok(())
     }
+}
+
+/// The more of the other files something counts on, the higher.
+fn counting(name: &Path) -> u8 {
+    u8::from(name == Path::new(CHECKPOINT)) + 2 * u8::from(name == Path::new(REPORT))
 }
 
 /// Renames done so far, to be taken back when a later one fails.

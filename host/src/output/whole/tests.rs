@@ -96,6 +96,33 @@ fn a_later_result_replaces_an_earlier_one_and_keeps_what_is_not_its_own() {
 }
 
 #[test]
+fn a_checkpoint_stands_only_beside_the_fields_that_it_counts_on() {
+    let place = tempfile::tempdir().unwrap();
+    let target = place.path().join("run.out");
+    let names = [CHECKPOINT, "fields/fields-1.vti", "fields/fields-2.vti", "history.csv"];
+    result(&target, "old", &names).unwrap();
+    let folder = WholeFolder::begin(&target).unwrap();
+    for name in names.iter().chain(&[REPORT]) {
+        put(&folder.path().join(name), "new");
+    }
+    let mut moves = Moves::default();
+    folder.put(&mut moves).unwrap();
+    // Whenever a run may be killed: after each rename, seen backwards from the last.
+    let mut seen = 0;
+    while let Some((from, to)) = moves.0.pop() {
+        let whole =
+            ["fields/fields-1.vti", "fields/fields-2.vti"].map(|name| fs::read_to_string(target.join(name)).ok());
+        let stands = fs::read_to_string(target.join(CHECKPOINT)).ok();
+        if stands.is_some() {
+            assert_eq!(whole, [stands.clone(), stands], "after {} renames", moves.0.len() + 1);
+            seen += 1;
+        }
+        fs::rename(to, from).unwrap();
+    }
+    assert!(seen > 1, "it stands before and after");
+}
+
+#[test]
 fn a_failed_replacement_leaves_the_earlier_result() {
     let place = tempfile::tempdir().unwrap();
     let target = place.path().join("run.out");
