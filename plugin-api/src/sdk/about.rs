@@ -1,11 +1,16 @@
 //! What a law says of itself, and the trait of a law over a batch.
 
+use core::ffi::CStr;
+
 use crate::abi::{
     WL_CUT_STEP, WL_FAILED, WL_MISSING_INPUT, WL_OK, WL_OUT_OF_DOMAIN, WL_QUANTITY_ABOVE_MINIMUM,
     WL_QUANTITY_BELOW_MAXIMUM, WL_QUANTITY_CLOSES_UNITS, WL_UNRELIABLE,
 };
 
 use super::{Answer, Batch};
+
+/// The extension that is a law's own table of known values, as `expected.csv` has them: a text closed by NUL.
+pub const SELFTEST: &CStr = c"wearlaw.selftest/1";
 
 /// How good an answer is, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -185,6 +190,9 @@ pub trait About: Sized + Send + Sync + 'static {
     const INPUTS: &'static [Quantity] = &[];
     /// Homogeneity in the pressure.
     const DEGREE: Degree = Degree::Unclaimed;
+
+    /// Known values that the plugin carries, the text of an `expected.csv`: the extension [`SELFTEST`].
+    const KNOWN_VALUES: Option<&'static CStr> = None;
 
     /// The instance of a law that takes no options; a law that takes some writes its own `create` instead.
     const INSTANCE: Option<Self> = None;

@@ -12,7 +12,7 @@ use crate::abi::{
 };
 
 use super::answer::Room;
-use super::{Answer, Batch, Degree, Law, Quantity, Status};
+use super::{Answer, Batch, Degree, Law, Quantity, SELFTEST, Status};
 
 /// The table of one law, as its entry gives it.
 pub type Fill = fn(&mut LawTable);
@@ -135,7 +135,7 @@ pub fn fill<T: Law>(table: &mut LawTable) {
     table.create = Some(create::<T>);
     table.evaluate = Some(evaluate::<T>);
     table.destroy = Some(destroy::<T>);
-    table.extension = None;
+    table.extension = T::KNOWN_VALUES.is_some().then_some(extension::<T>);
 }
 
 fn write_text(place: &mut [c_char], text: &str) {
@@ -293,6 +293,13 @@ unsafe fn evaluate_any<T: Law>(instance: *mut c_void, view: *const View, output:
         unsafe { answer.finish(output) };
     }
     status as i32
+}
+
+unsafe extern "C" fn extension<T: Law>(id: *const c_char) -> *const c_void {
+    // SAFETY: the host promises a text that ends in NUL where it is not NULL.
+    let asked = (!id.is_null()).then(|| unsafe { CStr::from_ptr(id) });
+    let found = T::KNOWN_VALUES.filter(|_| asked == Some(SELFTEST));
+    found.map_or(core::ptr::null(), |text| text.as_ptr().cast())
 }
 
 unsafe extern "C" fn destroy<T: Law>(instance: *mut c_void) {

@@ -13,7 +13,7 @@ mod point;
 #[cfg(test)]
 mod tests;
 
-pub use about::{About, Degree, Law, Quantity, Status, Unit};
+pub use about::{About, Degree, Law, Quantity, SELFTEST, Status, Unit};
 pub use answer::Answer;
 pub use batch::{Batch, Column, Indices};
 pub use point::{Point, PointAnswer, PointLaw};

@@ -1,7 +1,7 @@
 #![allow(unsafe_code)] // the tests stand where a host stands
 //! A law written for one point, called the way a host calls it.
 
-use core::ffi::c_void;
+use core::ffi::{CStr, c_void};
 use core::mem::{offset_of, size_of};
 use core::ptr::null;
 
@@ -265,6 +265,7 @@ struct Terse;
 impl About for Terse {
     const NAME: &'static str = "terse";
     const READS: i64 = WL_FIELD_SLIP;
+    const KNOWN_VALUES: Option<&'static CStr> = Some(c"slip,increment\n1,0\n");
     const INSTANCE: Option<Self> = Some(Terse);
 }
 
@@ -291,6 +292,25 @@ fn what_a_law_does_not_say_is_its_crates() {
     };
     assert_eq!(said(fill::<Terse>), ["9.8.7", "a crate of laws"]);
     assert_eq!(said(fill::<Sample>), ["1.2.3", "for tests"]);
+}
+
+#[test]
+fn known_values_are_an_extension_and_nothing_else_is() {
+    let function = |fill: fn(&mut LawTable)| {
+        // SAFETY: all-zero bytes are a valid table.
+        let mut table: LawTable = unsafe { core::mem::zeroed() };
+        fill(&mut table);
+        table.extension
+    };
+    assert!(function(fill::<Sample>).is_none());
+    let extension = function(fill::<Terse>).expect("it has known values");
+    // SAFETY: names of extensions are NULL or end in NUL.
+    let ask = |id: *const core::ffi::c_char| unsafe { extension(id) };
+    let found = ask(c"wearlaw.selftest/1".as_ptr());
+    assert!(!found.is_null());
+    // SAFETY: this extension is a text closed by NUL.
+    assert_eq!(unsafe { CStr::from_ptr(found.cast()) }, c"slip,increment\n1,0\n");
+    assert!(ask(null()).is_null() && ask(c"wearlaw.selftest/2".as_ptr()).is_null() && ask(c"".as_ptr()).is_null());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What the law is, and what it makes of a batch.
 
+use std::ffi::CStr;
 use std::fmt::Arguments;
 
 use wearlaw_plugin_api::sdk::Column;
@@ -9,6 +10,12 @@ use crate::power::{self, Inputs};
 
 /// Points that are computed and then checked while they are in the nearest cache.
 const BLOCK: usize = 1024;
+
+/// The known values beside this crate.
+const EXPECTED: &CStr = match CStr::from_bytes_with_nul(concat!(include_str!("../expected.csv"), "\0").as_bytes()) {
+    Ok(text) => text,
+    Err(_) => panic!("a NUL within the table"),
+};
 
 /// The Archard law: wear increment = (K / H) p^m v^n dt, with contact pressure p and sliding velocity v.
 ///
@@ -40,6 +47,7 @@ impl About for Archard {
         Quantity::new("n", Unit::NUMBER).default(1.0).about("velocity exponent"),
     ];
     const DEGREE: Degree = Degree::Constant(2);
+    const KNOWN_VALUES: Option<&'static CStr> = Some(EXPECTED);
     const INSTANCE: Option<Self> = Some(Archard);
 }
 

@@ -6,14 +6,12 @@ use std::ffi::{CStr, c_char, c_void};
 use std::path::{Path, PathBuf};
 
 use wearlaw_plugin_api::abi;
+pub use wearlaw_plugin_api::sdk::SELFTEST;
 
 use super::super::error::{nearest, suggestion};
 use super::points::{Case, Point, number_text};
 use wearlaw_law::fields::Shape;
 use wearlaw_law::{CallNumbers, Field, Fields, LawDescriptor, Quantity};
-
-/// The extension that holds the same table as a text closed by NUL.
-pub const SELFTEST: &CStr = c"wearlaw.selftest/1";
 
 /// The table that a law brings itself; a word on what is wrong with it otherwise.
 ///
