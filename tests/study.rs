@@ -159,15 +159,23 @@ fn a_yardstick_states_at_least_a_third_of_its_error() {
     ];
     for name in scenes {
         let file = scene(name);
-        let words = [&file, "--reference", "self", "--only", "tolerances", "--tolerances", "1e-1", "--budget", "8s"];
-        let document = study(here.path(), &words);
+        let words = [&file, "--reference", "self", "--only", "tolerances", "--tolerances", "1e-1", "--budget"];
+        // A limit that one step reaches has no second run to be compared with: then nothing is stated of steps.
+        let says = |document: &Value| {
+            name == "stick_limit.toml"
+                || document["yardstick"]["stated"].as_object().is_some_and(|stated| !stated.is_empty())
+        };
+        let mut document = study(here.path(), &[&words[..], &["8s"]].concat());
+        if !says(&document) {
+            // Other work on the machine has left no time for a second run.
+            document = study(here.path(), &[&words[..], &["60s"]].concat());
+        }
         let measured = document["yardstick"]["measured"].as_object().expect("a measure");
         assert!(measured.contains_key("wear_l2_relative"), "{name}: {}", document["yardstick"]);
         // The answers of the continuum are off by the grid, too.
         let continuum =
             ["winkler_parabola", "line_scar", "ball_on_flat", "stick_limit"].iter().any(|n| name.starts_with(n));
         for (norm, off) in measured {
-            // A limit that one step reaches has no second run to be compared with: then nothing is stated of steps.
             let own = document["yardstick"]["stated"][norm].as_f64();
             assert!(own.is_some() || name == "stick_limit.toml", "{name}, {norm}: nothing is stated");
             let own = own.unwrap_or(0.0);
