@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::convolve::Rows;
-use super::passes::{WORTH, change};
+use super::passes::{WORTH, change, dot, sum};
 
 /// Neighbours that are looked at together.
 const BLOCK: usize = 32;
@@ -20,13 +20,15 @@ pub struct ContactSet {
     pub cells: Vec<u32>,
     /// Where each row begins in `cells`, and the end of the last.
     starts: Vec<u32>,
+    /// How many cells of the surface have the pressure of each; none: one each.
+    weights: Vec<f64>,
 }
 
 impl ContactSet {
     /// The cells of a window `counts` that a function picks.
     pub fn of(counts: [usize; 2], mut pick: impl FnMut(usize) -> bool) -> ContactSet {
         let [width, rows] = counts;
-        let mut set = ContactSet { width, cells: Vec::new(), starts: Vec::with_capacity(rows + 1) };
+        let mut set = ContactSet::with_rows(width, rows);
         for row in 0..rows {
             set.starts.push(set.cells.len() as u32);
             set.cells.extend((row * width..(row + 1) * width).filter(|cell| pick(*cell)).map(|cell| cell as u32));
@@ -45,7 +47,7 @@ impl ContactSet {
         }
         let groups = (0..rows.div_ceil(GROUP)).into_par_iter();
         let parts: Vec<ContactSet> = groups.map(|group| some(group * GROUP..rows.min((group + 1) * GROUP))).collect();
-        let mut set = ContactSet { width, cells: Vec::new(), starts: Vec::with_capacity(rows + 1) };
+        let mut set = ContactSet::with_rows(width, rows);
         set.cells.reserve_exact(parts.iter().map(ContactSet::len).sum());
         for part in parts {
             let before = set.cells.len() as u32;
@@ -65,7 +67,7 @@ impl ContactSet {
         u: &[f64],
         joins: f64,
     ) -> ContactSet {
-        let mut set = ContactSet { width, cells: Vec::new(), starts: Vec::with_capacity(rows.len() + 1) };
+        let mut set = ContactSet::with_rows(width, rows.len());
         for row in rows {
             set.starts.push(set.cells.len() as u32);
             for first in (0..width).step_by(BLOCK) {
@@ -83,9 +85,51 @@ impl ContactSet {
         set
     }
 
+    /// No cells yet, and room for some rows.
+    fn with_rows(width: usize, rows: usize) -> ContactSet {
+        ContactSet { width, cells: Vec::new(), starts: Vec::with_capacity(rows + 1), weights: Vec::new() }
+    }
+
+    /// The same with the weights of the window's cells, where it has some.
+    pub fn weighed(mut self, threads: usize, weights: &[f64]) -> ContactSet {
+        if !weights.is_empty() {
+            self.weights = self.gather(threads, weights);
+        }
+        self
+    }
+
     /// Number of cells.
     pub fn len(&self) -> usize {
         self.cells.len()
+    }
+
+    /// How many cells of the surface have the pressure of one of the set.
+    #[inline]
+    pub fn weight(&self, at: usize) -> f64 {
+        if self.weights.is_empty() { 1.0 } else { self.weights[at] }
+    }
+
+    /// Number of cells of the surface.
+    pub fn size(&self) -> f64 {
+        if self.weights.is_empty() { self.len() as f64 } else { self.weights.iter().sum() }
+    }
+
+    /// Sum of a function over the cells of the surface.
+    pub fn sum(&self, threads: usize, of: impl Fn(usize) -> f64 + Sync) -> f64 {
+        if self.weights.is_empty() {
+            sum(threads, self.len(), of)
+        } else {
+            sum(threads, self.len(), |at| self.weights[at] * of(at))
+        }
+    }
+
+    /// Sum of products over the cells of the surface.
+    pub fn dot(&self, threads: usize, a: &[f64], b: &[f64]) -> f64 {
+        if self.weights.is_empty() {
+            dot(threads, a, b)
+        } else {
+            sum(threads, self.len(), |at| self.weights[at] * (a[at] * b[at]))
+        }
     }
 
     /// The values of an array over the window on the set.

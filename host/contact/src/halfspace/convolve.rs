@@ -3,6 +3,9 @@
 //! Rows are transformed first. Only rows with cells in them are: the rest of a padded grid is zero on the way in and
 //! unused on the way out. The spectrum is kept in strips of a few columns `[strip][row][column]`, so that a strip fits
 //! the cache while its columns are transformed, multiplied and transformed back in one pass.
+//!
+//! Cells on one side of a mirror are given with their images. Rows that are their own mirror image have real bins, two of
+//! which go into one complex number; the columns of these are transformed together, and only half as many.
 
 use std::sync::Arc;
 
@@ -34,7 +37,9 @@ struct Bench {
 pub struct Convolution {
     /// Cells of the window.
     pub counts: [usize; 2],
-    padded: [usize; 2],
+    /// Cells of the grid that the transforms are made on.
+    pub padded: [usize; 2],
+    mirrored: [bool; 2],
     symbol: Quarter,
     threads: usize,
     /// `[strip][row][STRIP]`, the strips a little apart so that they do not fall on the same lines of cache.
@@ -81,26 +86,32 @@ impl Rows for Dense<'_> {
 
 impl Convolution {
     /// Over `counts` cells with the transform of a kernel on a padded grid (or one of the same size: periodic); with the
-    /// threads of rayon's current pool if `threads` is not 1.
-    pub fn new(counts: [usize; 2], mut symbol: Quarter, set: Instructions, threads: usize) -> Convolution {
+    /// threads of rayon's current pool if `threads` is not 1. Along axes that are `mirrored` cell k has an image at -k.
+    pub fn new(
+        counts: [usize; 2],
+        mirrored: [bool; 2],
+        mut symbol: Quarter,
+        set: Instructions,
+        threads: usize,
+    ) -> Convolution {
         let padded = symbol.periods;
         let normal = 1.0 / (padded[0] * padded[1]) as f64;
         symbol.values.iter_mut().for_each(|value| *value *= normal);
         let real = Real::new(set, padded[0]);
         let [forward_column, backward_column] =
             [FftDirection::Forward, FftDirection::Inverse].map(|direction| complex(set, padded[1], direction));
-        let strips = (padded[0] / 2 + 1).div_ceil(STRIP);
         let scratch = real.scratch().max(forward_column.get_inplace_scratch_len());
         let scratch = scratch.max(backward_column.get_inplace_scratch_len());
         let bench = Bench {
             row: vec![0.0; padded[0]],
-            bins: vec![ZERO; BLOCK * strips * STRIP],
+            bins: vec![ZERO; BLOCK * in_strips(padded[0] / 2 + 1)],
             columns: vec![ZERO; STRIP * (padded[1] + APART)],
             scratch: vec![ZERO; scratch],
         };
         let mut convolution = Convolution {
             counts,
             padded,
+            mirrored,
             symbol,
             threads,
             spectrum: Vec::new(),
@@ -116,7 +127,7 @@ impl Convolution {
     /// Turns to a window of other counts, under the same transforms.
     pub fn turn_to(&mut self, counts: [usize; 2]) {
         self.counts = counts;
-        let strips = (self.padded[0] / 2 + 1).div_ceil(STRIP);
+        let strips = stored(self.padded[0] / 2 + 1, self.mirrored[0]).div_ceil(STRIP);
         self.spectrum.resize(strips * STRIP * (counts[1] + 1), ZERO);
         if self.threads > 1 && self.padded[0] * counts[1] >= WORTH {
             while self.benches.len() < 2 * self.threads {
@@ -127,9 +138,9 @@ impl Convolution {
         }
     }
 
-    /// Cells of the grid that the transforms are made on.
-    pub fn padded(&self) -> [usize; 2] {
-        self.padded
+    /// Whether it is one over this padded grid, mirrored along these axes.
+    pub fn is_over(&self, padded: [usize; 2], mirrored: [bool; 2]) -> bool {
+        (self.padded, self.mirrored) == (padded, mirrored)
     }
 
     /// Bytes that it holds.
@@ -163,6 +174,7 @@ impl Convolution {
         let group = ny.div_ceil(groups);
         let real = &self.real;
         let wide = in_strips(bins);
+        let mirrored = self.mirrored[0];
         each(&mut self.benches, split_rows(&mut self.spectrum, apart, ny, group), |bench, index, mut strips| {
             let (begin, end) = (index * group, ny.min((index + 1) * group));
             for block in (begin..end).step_by(BLOCK) {
@@ -170,7 +182,13 @@ impl Convolution {
                 for (row, spectrum) in block.clone().zip(bench.bins.chunks_exact_mut(wide)) {
                     bench.row.fill(0.0);
                     if rows.read(row, &mut bench.row[..nx]) {
+                        if mirrored {
+                            mirror(&mut bench.row, nx, 1);
+                        }
                         real.forward(&bench.row, &mut spectrum[..bins], &mut bench.scratch);
+                        if mirrored {
+                            pack(&mut spectrum[..bins]);
+                        }
                     } else {
                         spectrum.fill(ZERO);
                     }
@@ -184,11 +202,17 @@ impl Convolution {
                 }
             }
         });
-        let columns = Columns { forward: &*self.forward_column, backward: &*self.backward_column };
+        let columns =
+            Columns { forward: &*self.forward_column, backward: &*self.backward_column, mirrored: self.mirrored };
         let symbol = &self.symbol;
         if ny == 1 && self.padded[1] == 1 {
-            for (x, value) in (0..bins).map(|x| (x, symbol.values[x])) {
-                self.spectrum[x / STRIP * apart + x % STRIP] *= value;
+            for x in 0..stored(bins, mirrored) {
+                let value = &mut self.spectrum[x / STRIP * apart + x % STRIP];
+                if mirrored {
+                    *value = scaled(*value, symbol.values[2 * x], symbol.values.get(2 * x + 1).copied().unwrap_or(0.0));
+                } else {
+                    *value *= symbol.values[x];
+                }
             }
         } else {
             let strips = self.spectrum.chunks_exact_mut(apart);
@@ -231,12 +255,53 @@ impl Convolution {
                     if from == to {
                         continue;
                     }
+                    if mirrored {
+                        unpack(&mut spectrum[..bins]);
+                    }
                     real.backward(&mut spectrum[..bins], &mut bench.row, &mut bench.scratch);
                     rows.write(row, &bench.row[..nx], &mut out[from..to]);
                 }
             }
         });
     }
+}
+
+/// Complex numbers that hold the bins of a row: half as many where these are real.
+fn stored(bins: usize, mirrored: bool) -> usize {
+    if mirrored { bins.div_ceil(2) } else { bins }
+}
+
+/// Writes the images of the numbers 1 .. `count` of a period, of which every one is `width` values long.
+fn mirror<T: Copy>(values: &mut [T], count: usize, width: usize) {
+    let period = values.len() / width;
+    for at in 1..count {
+        values.copy_within(at * width..(at + 1) * width, (period - at) * width);
+    }
+}
+
+/// Real bins, two in a number, the rest being zero.
+fn pack(bins: &mut [Complex<f64>]) {
+    let held = bins.len().div_ceil(2);
+    for at in 0..held {
+        bins[at] = Complex { re: bins[2 * at].re, im: bins.get(2 * at + 1).map_or(0.0, |bin| bin.re) };
+    }
+    bins[held..].fill(ZERO);
+}
+
+/// Back from [`pack`].
+fn unpack(bins: &mut [Complex<f64>]) {
+    for at in (0..bins.len().div_ceil(2)).rev() {
+        let both = bins[at];
+        if let Some(odd) = bins.get_mut(2 * at + 1) {
+            *odd = Complex { re: both.im, im: 0.0 };
+        }
+        bins[2 * at] = Complex { re: both.re, im: 0.0 };
+    }
+}
+
+/// Each part of a number times its own factor.
+fn scaled(value: Complex<f64>, re: f64, im: f64) -> Complex<f64> {
+    Complex { re: value.re * re, im: value.im * im }
 }
 
 /// Bins of a row, in whole strips.
@@ -248,6 +313,7 @@ fn in_strips(bins: usize) -> usize {
 struct Columns<'a> {
     forward: &'a dyn Fft<f64>,
     backward: &'a dyn Fft<f64>,
+    mirrored: [bool; 2],
 }
 
 impl Columns<'_> {
@@ -255,7 +321,8 @@ impl Columns<'_> {
     fn convolve(&self, symbol: &Quarter, first: usize, data: &mut [Complex<f64>], bench: &mut Bench) {
         let length = self.forward.len();
         let (half, bins) = (length / 2 + 1, symbol.values.len() / (length / 2 + 1));
-        let wide = STRIP.min(bins - first);
+        let packed = self.mirrored[0];
+        let wide = STRIP.min(stored(bins, packed) - first);
         // A little apart, so that writing them side by side does not fall on the same lines of cache.
         let pitch = length + APART;
         let rows = data.len() / STRIP;
@@ -267,19 +334,53 @@ impl Columns<'_> {
                 bench.columns[x * pitch + y] = *value;
             }
         }
-        let symbols = symbol.values[first * half..].chunks_exact(half);
-        for (column, symbol) in bench.columns.chunks_exact_mut(pitch).zip(symbols).take(wide) {
+        let bin = |bin: usize| &symbol.values[bin.min(bins - 1) * half..][..half];
+        for (at, column) in (first..first + wide).zip(bench.columns.chunks_exact_mut(pitch)) {
             let column = &mut column[..length];
+            if self.mirrored[1] {
+                mirror(column, rows, 1);
+            }
             self.forward.process_with_scratch(column, &mut bench.scratch[..self.forward.get_inplace_scratch_len()]);
-            let (low, high) = column.split_at_mut(half);
-            low.iter_mut().zip(symbol).for_each(|(value, symbol)| *value *= symbol);
-            high.iter_mut().rev().zip(&symbol[1..]).for_each(|(value, symbol)| *value *= symbol);
+            match (packed, self.mirrored[1]) {
+                (false, _) => multiply(column, bin(at)),
+                (true, true) => multiply_each(column, bin(2 * at), bin(2 * at + 1)),
+                (true, false) => multiply_both(column, bin(2 * at), bin(2 * at + 1)),
+            }
             self.backward.process_with_scratch(column, &mut bench.scratch[..self.backward.get_inplace_scratch_len()]);
         }
         for (y, row) in data.chunks_exact_mut(STRIP).enumerate() {
             for (x, value) in row.iter_mut().take(wide).enumerate() {
                 *value = bench.columns[x * pitch + y];
             }
+        }
+    }
+}
+
+/// Times an even symbol.
+fn multiply(column: &mut [Complex<f64>], symbol: &[f64]) {
+    let (low, high) = column.split_at_mut(symbol.len());
+    low.iter_mut().zip(symbol).for_each(|(value, symbol)| *value *= symbol);
+    high.iter_mut().rev().zip(&symbol[1..]).for_each(|(value, symbol)| *value *= symbol);
+}
+
+/// Times an even symbol for each part; both parts are real transforms, those of even real columns.
+fn multiply_each(column: &mut [Complex<f64>], re: &[f64], im: &[f64]) {
+    let (low, high) = column.split_at_mut(re.len());
+    let each = |(value, (re, im)): (&mut Complex<f64>, (&f64, &f64))| *value = scaled(*value, *re, *im);
+    low.iter_mut().zip(re.iter().zip(im)).for_each(each);
+    high.iter_mut().rev().zip(re[1..].iter().zip(&im[1..])).for_each(each);
+}
+
+/// Times an even symbol for each of two real columns, whose transforms are mixed: z = a + ib with a(-k) = conj a(k).
+fn multiply_both(column: &mut [Complex<f64>], one: &[f64], other: &[f64]) {
+    let length = column.len();
+    for (k, (one, other)) in one.iter().zip(other).enumerate() {
+        let (sum, difference) = (0.5 * (one + other), 0.5 * (one - other));
+        let back = (length - k) % length;
+        let (a, b) = (column[k], column[back]);
+        column[k] = a * sum + b.conj() * difference;
+        if back != k {
+            column[back] = b * sum + a.conj() * difference;
         }
     }
 }

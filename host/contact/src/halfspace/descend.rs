@@ -1,7 +1,7 @@
 //! Preconditioned conjugate gradients on a set that stays.
 
 use super::contact_set::ContactSet;
-use super::passes::{add, change, dot, each_chunk, sum};
+use super::passes::{add, change, each_chunk};
 use super::patch::Patch;
 use super::residual;
 use super::stencil::Stencil;
@@ -46,12 +46,12 @@ pub struct Followed<'a> {
 }
 
 /// The error of pressures with these gaps, those below zero counting as zero.
-pub fn error(patch: &Patch<'_>, pressure: &[f64], gap: &[f64]) -> f64 {
+pub fn error(patch: &Patch<'_>, set: &ContactSet, pressure: &[f64], gap: &[f64]) -> f64 {
     let parts = each_chunk(patch.threads, pressure.len(), |range| {
         let mut lowest = f64::INFINITY;
         let (mut total, mut weighted) = (0.0, 0.0);
-        for (p, gap) in pressure[range.clone()].iter().zip(&gap[range]) {
-            let p = p.max(0.0);
+        for (at, (p, gap)) in range.clone().zip(pressure[range.clone()].iter().zip(&gap[range])) {
+            let p = set.weight(at) * p.max(0.0);
             lowest = lowest.min(*gap);
             total += p;
             weighted += p * if patch.sum.is_some() { *gap } else { gap.abs() };
@@ -67,13 +67,12 @@ pub fn error(patch: &Patch<'_>, pressure: &[f64], gap: &[f64]) -> f64 {
 
 impl Descent {
     /// Norm of the residual, without its mean under a load.
-    pub fn norm(&self, patch: &Patch<'_>) -> f64 {
-        let (threads, count) = (patch.threads, self.residual.len());
+    pub fn norm(&self, patch: &Patch<'_>, set: &ContactSet) -> f64 {
         let mean = match patch.sum {
-            Some(_) => sum(threads, count, |i| self.residual[i]) / count.max(1) as f64,
+            Some(_) => set.sum(patch.threads, |i| self.residual[i]) / set.size().max(1.0),
             None => 0.0,
         };
-        sum(threads, count, |i| (self.residual[i] - mean).powi(2)).sqrt()
+        set.sum(patch.threads, |i| (self.residual[i] - mean).powi(2)).sqrt()
     }
 
     /// One step straight down the gradient, as far as the energy falls.
@@ -81,13 +80,13 @@ impl Descent {
         let (threads, count) = (patch.threads, set.len());
         let mut direction = self.residual.clone();
         if patch.sum.is_some() {
-            let mean = sum(threads, count, |i| direction[i]) / count.max(1) as f64;
+            let mean = set.sum(threads, |i| direction[i]) / set.size().max(1.0);
             change(threads, &mut direction, |_, value| value - mean);
         }
         let mut image = vec![0.0; count];
         patch.image(set, &direction, &mut image);
         self.iterations += 1;
-        let step = dot(threads, &self.residual, &direction) / dot(threads, &direction, &image);
+        let step = set.dot(threads, &self.residual, &direction) / set.dot(threads, &direction, &image);
         if step > 0.0 && step.is_finite() {
             change(threads, &mut self.pressure, |i, p| p - step * direction[i]);
         }
@@ -136,17 +135,17 @@ impl Descent {
             }
             ones.fill(1.0);
             stencil.apply(patch, set, ones, unit);
-            unit_sum = sum(threads, count, |i| unit[i]);
+            unit_sum = set.sum(threads, |i| unit[i]);
         }
         let own = stencil.own();
         let mut last = 0.0;
         for iteration in 0..goal.most {
             stencil.apply(patch, set, &self.residual, steep);
             if patch.sum.is_some() {
-                let factor = sum(threads, count, |i| steep[i]) / unit_sum;
+                let factor = set.sum(threads, |i| steep[i]) / unit_sum;
                 add(threads, steep, -factor, unit);
             }
-            let square = dot(threads, &self.residual, steep);
+            let square = set.dot(threads, &self.residual, steep);
             if iteration == 0 {
                 direction.copy_from_slice(steep);
             } else {
@@ -164,28 +163,28 @@ impl Descent {
             } else {
                 patch.image(set, direction, image);
             }
-            let curvature = dot(threads, direction, image);
+            let curvature = set.dot(threads, direction, image);
             self.iterations += 1;
             if curvature.is_nan() || curvature <= 0.0 {
                 followed.kept = false;
                 return false;
             }
-            let step = dot(threads, &self.residual, direction) / curvature;
+            let step = set.dot(threads, &self.residual, direction) / curvature;
             add(threads, &mut self.pressure, -step, direction);
             add(threads, &mut self.residual, -step, image);
             if followed.kept {
                 add(threads, followed.u, -step, over);
             }
-            let norm = self.norm(patch);
+            let norm = self.norm(patch, set);
             if norm <= goal.norm {
                 return true;
             }
             if goal.wrong.is_finite() {
-                let below = sum(threads, count, |i| self.pressure[i].min(0.0).powi(2)).sqrt();
+                let below = set.sum(threads, |i| self.pressure[i].min(0.0).powi(2)).sqrt();
                 // Where the residual is far above the goal on average, the error is not looked at.
-                let near = norm <= NEAR * goal.error * (count as f64).sqrt();
+                let near = norm <= NEAR * goal.error * set.size().sqrt();
                 if norm <= goal.wrong * own * below
-                    || near && error(patch, &self.pressure, &self.residual) <= goal.error
+                    || near && error(patch, set, &self.pressure, &self.residual) <= goal.error
                 {
                     return true;
                 }

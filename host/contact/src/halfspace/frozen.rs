@@ -26,7 +26,7 @@ pub fn close(patch: &mut Patch<'_>, set: &ContactSet, tolerance: f64, pressure: 
     let mut stencil = Stencil::new(patch, set);
     stencil.turn_to(patch, set);
     let mut descent = Descent { pressure: values, residual: gap.clone(), iterations: 0 };
-    let mut reference = descent.norm(patch);
+    let mut reference = descent.norm(patch, set);
     let mut image = vec![0.0; count];
     let mut outcome = Outcome {
         approach: 0.0,
@@ -42,11 +42,11 @@ pub fn close(patch: &mut Patch<'_>, set: &ContactSet, tolerance: f64, pressure: 
         let size = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
         if round == 0 {
             descent.residual.copy_from_slice(&image);
-            reference = reference.max(descent.norm(patch));
+            reference = reference.max(descent.norm(patch, set));
         }
         let floor = 8.0 * f64::EPSILON * (size(&gap) + size(&image));
         descent.residual.iter_mut().zip(gap.iter().zip(&image)).for_each(|(r, (gap, u))| *r = gap + u);
-        let norm = descent.norm(patch);
+        let norm = descent.norm(patch, set);
         let error = if norm == 0.0 { 0.0 } else { norm / reference };
         let better = error < 0.5 * outcome.error;
         if error < outcome.error {

@@ -3,6 +3,7 @@
 use super::Boundary;
 use super::convolve::Convolution;
 use super::influence;
+use super::mirror::Half;
 use super::symbol::Quarter;
 use crate::Instructions;
 
@@ -21,6 +22,8 @@ pub struct Kernel {
     pub soft: f64,
     /// Distance at which the displacement is zero; 2-D with a free boundary only.
     pub datum: f64,
+    /// Along which axes only one side of a mirror is solved for; see [`mirror`](super::mirror).
+    pub mirrored: [bool; 2],
     /// What transforms are made with.
     pub instructions: Instructions,
     /// The compliance at all lags, once it was needed; periodic only.
@@ -39,7 +42,8 @@ impl Kernel {
     /// Of cells in these units.
     pub fn new(flat: bool, boundary: Boundary, counts: [usize; 2], spacing: [f64; 2], soft: f64, datum: f64) -> Kernel {
         let instructions = Instructions::in_use();
-        Kernel { flat, boundary, counts, spacing, soft, datum, instructions, lags: None, least: None }
+        let mirrored = [false; 2];
+        Kernel { flat, boundary, counts, spacing, soft, datum, mirrored, instructions, lags: None, least: None }
     }
 
     /// Displacement per pressure of a mode of a periodic surface with this many cells.
@@ -79,19 +83,30 @@ impl Kernel {
         })
     }
 
-    /// The sizes of a window that holds `least` cells along each axis and makes full use of its transforms.
+    /// The cells that are solved for.
+    pub fn half(&self) -> Half {
+        Half::new(self.counts, self.mirrored, self.boundary)
+    }
+
+    /// The sizes of a window that holds `least` cells along each axis, of those that are solved for, and makes full use of
+    /// its transforms.
     pub fn sizes(&self, least: [usize; 2]) -> Sizes {
+        let half = self.half();
         let along = |axis: usize| {
-            let (all, least) = (self.counts[axis], least[axis].clamp(1, self.counts[axis]));
-            let padded = good(2 * least - 1);
+            let (all, period, mirrored) = (half.counts[axis], self.counts[axis], self.mirrored[axis]);
+            let least = least[axis].clamp(1, all);
+            // With the images of all but the first.
+            let span = |count: usize| if mirrored { 2 * count - 1 } else { count };
+            let padded = good(2 * span(least) - 1);
+            let most = if mirrored { (padded + 3) / 4 } else { padded.div_ceil(2) };
             match self.boundary {
                 // Over the whole period, with as many cells of it as are needed.
-                Boundary::Periodic if padded >= all => {
-                    let count = least.next_multiple_of(SHARE);
-                    (if 8 * count > 7 * all { all } else { count }, all)
+                Boundary::Periodic if padded >= period => {
+                    let count = least.next_multiple_of(if mirrored { SHARE / 2 } else { SHARE });
+                    (if 8 * count > 7 * all { all } else { count }, period)
                 }
-                _ if padded.div_ceil(2) >= all => (all, good(2 * all - 1)),
-                _ => (padded.div_ceil(2), padded),
+                _ if most >= all => (all, good(2 * span(all) - 1)),
+                _ => (most, padded),
             }
         };
         let (x, y) = (along(0), along(1));
@@ -110,7 +125,7 @@ impl Kernel {
         } else {
             Quarter::from_lags(padded, |x, y| self.free([x, y])).transformed(set)
         };
-        Convolution::new(counts, symbol, set, threads)
+        Convolution::new(counts, self.mirrored, symbol, set, threads)
     }
 
     /// Bytes that it holds.

@@ -47,10 +47,18 @@ impl Guess {
     /// The window of the finer level around its contact; `None`: there is no contact.
     pub fn window(&self, finer: &Kernel) -> Option<Window> {
         let (first, counts) = self.contact?;
-        let axes = [0, 1];
+        let (axes, half) = ([0, 1], finer.half());
         let margin = axes.map(|axis| if finer.counts[axis] > 1 { 2 + counts[axis] / 16 } else { 0 });
         let first = axes.map(|axis| first[axis] * self.factor[axis]);
-        let counts = axes.map(|axis| counts[axis] * self.factor[axis] + 2 * margin[axis]);
+        let counts = axes.map(|axis| {
+            let count = counts[axis] * self.factor[axis];
+            if half.mirrored[axis] {
+                let from = |at: usize| half.base(axis).abs_diff(at);
+                from(first[axis]).max(from(first[axis] + count - 1)) + 1 + margin[axis]
+            } else {
+                count + 2 * margin[axis]
+            }
+        });
         Some(Window::over(finer, first, counts, margin))
     }
 
@@ -58,7 +66,7 @@ impl Guess {
     pub fn on(&self, window: &Window) -> Vec<f64> {
         let mut values = Vec::with_capacity(window.sizes.0[0] * window.sizes.0[1]);
         for place in 0..window.sizes.0[0] * window.sizes.0[1] {
-            let [x, y] = window.at(place);
+            let [x, y] = window.half.unfold(window.at(place));
             let coarse = self.window.place([x / self.factor[0], y / self.factor[1]]);
             values.push(coarse.map_or(0.0, |place| self.pressure[place]));
         }
@@ -139,6 +147,7 @@ pub fn guess(mut level: Level, threads: usize) -> Guess {
         counts: window.sizes.0,
         gap: window.gather(|cell| level.gap[cell]),
         local: if level.local.len() > 1 { window.gather(|cell| level.local[cell]) } else { level.local.clone() },
+        weights: Vec::new(),
         smoothed: false,
         sum: level.sum,
         cut: [[false; 2]; 2],
@@ -149,7 +158,7 @@ pub fn guess(mut level: Level, threads: usize) -> Guess {
     let outcome = search(&mut patch, Accuracy { tolerance: 0.0, scale: 0.0, rough: ROUGH }, &mut pressure);
     iterations += outcome.iterations;
     pairs += patch.pairs;
-    let mut extent = Extent::empty(level.kernel.counts);
+    let mut extent = Extent::empty(&level.kernel.half());
     extent.mark_loaded(&window, &pressure);
     let contact = extent.range(level.kernel.boundary);
     Guess { window, pressure, contact, factor: level.factor, iterations, pairs }

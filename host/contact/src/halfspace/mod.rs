@@ -11,6 +11,7 @@ mod frozen;
 mod influence;
 mod kernel;
 mod levels;
+mod mirror;
 mod neighbours;
 mod passes;
 mod patch;
@@ -53,6 +54,8 @@ pub struct HalfSpace {
     modulus_unit: f64,
     kernel: Kernel,
     threads: usize,
+    /// Whether symmetric problems are solved on a half or a quarter of the cells.
+    mirrors: bool,
     /// The last used is the last.
     kept: Vec<Convolution>,
     room: Room,
@@ -72,13 +75,29 @@ impl HalfSpace {
         let modulus_unit = power_of_two(modulus);
         let datum = datum.map_or(0.5 * cells.counts[0] as f64 * spacing[0], |datum| datum / length);
         let kernel = Kernel::new(flat, boundary, cells.counts, spacing, modulus_unit / modulus, datum);
-        HalfSpace { cells, length, modulus_unit, kernel, threads, kept: Vec::new(), room: Room::default() }
+        HalfSpace {
+            cells,
+            length,
+            modulus_unit,
+            kernel,
+            threads,
+            mirrors: true,
+            kept: Vec::new(),
+            room: Room::default(),
+        }
     }
 
     /// The same with transforms by this set of instructions instead of that of the process.
     #[must_use]
     pub fn with_instructions(mut self, set: Instructions) -> HalfSpace {
         self.kernel.instructions = set;
+        self
+    }
+
+    /// The same without use of mirror symmetry: every problem is solved on all cells.
+    #[must_use]
+    pub fn without_mirrors(mut self) -> HalfSpace {
+        self.mirrors = false;
         self
     }
 
@@ -98,7 +117,8 @@ impl HalfSpace {
 
     /// The convolution over a window, kept or made; to be given back by [`HalfSpace::keep`].
     fn convolution(&mut self, (counts, padded): Sizes) -> Convolution {
-        match self.kept.iter().position(|kept| kept.padded() == padded) {
+        let mirrored = self.kernel.mirrored;
+        match self.kept.iter().position(|kept| kept.is_over(padded, mirrored)) {
             Some(place) => {
                 let mut convolution = self.kept.remove(place);
                 convolution.turn_to(counts);
@@ -130,6 +150,7 @@ impl ContactModel for HalfSpace {
     }
 
     fn displacement(&mut self, pressure: &[f64], out: &mut [f64]) {
+        self.kernel.mirrored = [false; 2];
         let sizes = self.kernel.sizes(self.cells.counts);
         let mut convolution = self.convolution(sizes);
         convolution.apply(&Dense { width: self.cells.counts[0], input: pressure }, out);

@@ -15,13 +15,15 @@ pub struct Patch<'a> {
     pub convolution: &'a mut Convolution,
     /// Cells in x and y.
     pub counts: [usize; 2],
-    /// Along which axes it is the whole of a periodic surface.
+    /// Along which axes it is the whole of a periodic surface, or of half of one.
     pub wraps: [bool; 2],
     /// Gap `[cells]`, infinite where nothing can touch.
     pub gap: Vec<f64>,
     /// Local compliance `[cells]`, or one for all, or none.
     pub local: Vec<f64>,
-    /// Whether that acts on the smoothed pressure.
+    /// How many cells of the surface have the pressure of a cell `[cells]`; none: one each.
+    pub weights: Vec<f64>,
+    /// Whether the local compliance acts on the smoothed pressure.
     pub smoothed: bool,
     /// Sum of all pressures; if there is none, the approach is 0.
     pub sum: Option<f64>,
@@ -44,6 +46,12 @@ impl Patch<'_> {
             [one] => one,
             _ => self.local[cell],
         }
+    }
+
+    /// How many cells of the surface have the pressure of a cell.
+    #[inline]
+    pub fn weight(&self, cell: usize) -> f64 {
+        if self.weights.is_empty() { 1.0 } else { self.weights[cell] }
     }
 
     /// Whether the local compliance is not the same everywhere.

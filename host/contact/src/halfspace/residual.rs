@@ -68,7 +68,7 @@ pub fn run(descent: &mut Descent, patch: &mut Patch<'_>, set: &ContactSet, stenc
             change(threads, &mut descent.pressure, |i, p| p - factor * direction[i]);
             change(threads, &mut descent.residual, |i, r| r - factor * image[i]);
         }
-        let after = descent.norm(patch);
+        let after = descent.norm(patch, set);
         if after <= goal.norm || after > 0.999 * norm {
             return after <= norm;
         }

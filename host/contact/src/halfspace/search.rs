@@ -10,7 +10,7 @@
 
 use super::contact_set::ContactSet;
 use super::descend::{Descent, Followed, Goal};
-use super::passes::{change, sum};
+use super::passes::change;
 use super::patch::Patch;
 use super::state::{self, State, enlarge, go_back, project, start, stop_at_zero};
 use super::stencil::Stencil;
@@ -144,6 +144,7 @@ fn rounds(
         // The last careful round is on the cells with pressure alone.
         let joins = if careful == 1 { f64::NEG_INFINITY } else { approach - 0.25 * bar };
         let now = ContactSet::touching(patch.threads, patch.counts[0], pressure, &patch.gap, u, joins);
+        let now = now.weighed(patch.threads, &patch.weights);
         if error < 0.9 * best.0 {
             let values = now.gather(patch.threads, pressure);
             best = (error, approach, round, now.clone(), values);
@@ -177,10 +178,10 @@ fn rounds(
         known = false;
         if careful > 1 {
             descent.straight(patch, &set);
-            project(patch, &mut descent.pressure);
+            project(patch, &set, &mut descent.pressure);
         } else {
             let reduction = if same { SAME } else { CHANGED };
-            let norm = reduction * descent.norm(patch);
+            let norm = reduction * descent.norm(patch, &set);
             let goal = Goal { norm, error: 0.5 * bar, wrong: WRONG, most: MOST_ITERATIONS };
             let mut followed = Followed { u, most: FOLLOWED, kept: !next_guarded };
             descent.run(patch, &set, stencil, &goal, &mut followed);
@@ -195,15 +196,15 @@ fn rounds(
         iterations += descent.iterations;
         last = state;
         set.scatter(threads, &descent.pressure, pressure);
-        known &= rescale(patch, &descent.pressure, pressure);
+        known &= rescale(patch, &set, &descent.pressure, pressure);
     }
     unreachable!("the rounds end by themselves")
 }
 
 /// Gives the pressures the sum that is given; they are these on a set and zero elsewhere. Whether that was rounding alone.
-fn rescale(patch: &Patch<'_>, on_set: &[f64], pressure: &mut [f64]) -> bool {
+fn rescale(patch: &Patch<'_>, set: &ContactSet, on_set: &[f64], pressure: &mut [f64]) -> bool {
     let Some(wanted) = patch.sum else { return true };
-    let factor = wanted / sum(patch.threads, on_set.len(), |at| on_set[at]);
+    let factor = wanted / set.sum(patch.threads, |at| on_set[at]);
     if (factor - 1.0).abs() <= ROUNDING {
         return true;
     }

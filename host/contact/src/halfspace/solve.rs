@@ -3,6 +3,7 @@
 use super::contact_set::ContactSet;
 use super::convolve::Dense;
 use super::levels;
+use super::mirror;
 use super::passes::sum;
 use super::patch::Patch;
 use super::scaled::Scaled;
@@ -24,13 +25,17 @@ pub fn solve(model: &mut HalfSpace, problem: &Problem<'_>, pressure: &mut [f64])
     if let Control::Approach(approach) = problem.control {
         determined(model, &scaled, problem, approach)?;
     }
+    model.kernel.mirrored = if model.mirrors { mirror::of(model, problem, pressure) } else { [false; 2] };
     let mut job = Job { model, problem, scaled: &scaled, iterations: 0, pairs: 0 };
     let (window, values, outcome) = match problem.frozen {
         Some(set) => job.frozen(set, pressure),
-        None => job.search(pressure),
+        None => job.search(pressure).unwrap_or_else(|NoImage| {
+            job.model.kernel.mirrored = [false; 2];
+            job.search(pressure).unwrap_or_else(|NoImage| unreachable!("without a mirror every cell is its own image"))
+        }),
     };
     let (iterations, fft_pairs) = (job.iterations, job.pairs);
-    let total = sum(model.threads, values.len(), |place| values[place]);
+    let total = window.sum(model.threads, &values);
     let (mut factor, mut load) = (scaled.units.pressure, total * scaled.units.pressure * model.cells.area());
     if let (Control::Load(wanted), Some(sum), None) = (problem.control, scaled.sum, problem.frozen) {
         factor *= sum / total;
@@ -74,6 +79,9 @@ fn determined(
     Ok(())
 }
 
+/// The contact comes to cells of a mirrored surface that have no image.
+struct NoImage;
+
 /// A solve under way.
 struct Job<'a> {
     model: &'a mut HalfSpace,
@@ -95,6 +103,7 @@ impl Job<'_> {
             counts: window.sizes.0,
             wraps: window.wraps(self.model.kernel.boundary),
             gap,
+            weights: window.weights(&mut self.model.room),
             local: self.scaled.varying().map_or_else(|| self.scaled.uniform(), |local| window.gather(local)),
             smoothed: self.problem.smoothed,
             sum: self.scaled.sum,
@@ -105,8 +114,9 @@ impl Job<'_> {
         };
         let result = act(&mut patch);
         self.pairs += patch.pairs;
-        let Patch { gap, local, mut room, .. } = patch;
+        let Patch { gap, local, weights, mut room, .. } = patch;
         room.give(gap);
+        room.give(weights);
         room.give(local);
         self.model.room = room;
         self.model.keep(convolution);
@@ -117,7 +127,7 @@ impl Job<'_> {
     /// went.
     fn frozen(&mut self, set: &[bool], pressure: &[f64]) -> (Window, Vec<f64>, Outcome) {
         let kernel = &self.model.kernel;
-        let window = Window::around(kernel, [0, 0], &Extent::of(kernel.counts, |cell| set[cell]));
+        let window = Window::around(kernel, [0, 0], &Extent::of(&kernel.half(), |cell| set[cell]));
         let window = window.unwrap_or_else(|| Window::over(kernel, [0, 0], [1, 1], [0, 0]));
         let unit = self.scaled.units.pressure;
         let mut values = window.gather(|cell| pressure[cell] / unit);
@@ -130,26 +140,32 @@ impl Job<'_> {
     }
 
     /// Finds the contact: a window with all of it, the pressures there in the unit of the problem, and how it went.
-    fn search(&mut self, pressure: &[f64]) -> (Window, Vec<f64>, Outcome) {
+    fn search(&mut self, pressure: &[f64]) -> Result<(Window, Vec<f64>, Outcome), NoImage> {
         let (mut window, mut values) = self.begin(pressure);
         let accuracy = Accuracy { tolerance: self.problem.tolerance, scale: self.scaled.scale, rough: 0.0 };
         for tried in 0.. {
             let mut outcome = self.on(&window, |patch| search(patch, accuracy, &mut values));
             self.iterations += outcome.iterations;
             if window.is_whole() {
-                return (window, values, outcome);
+                return Ok((window, values, outcome));
             }
-            let low = if outcome.outgrown { Vec::new() } else { self.overlapping(&window, &values, &mut outcome) };
+            let low = if outcome.outgrown { Vec::new() } else { self.overlapping(&window, &values, &mut outcome)? };
             if low.is_empty() && !outcome.outgrown {
-                return (window, values, outcome);
+                return Ok((window, values, outcome));
+            }
+            if window.covers_half() {
+                return Err(NoImage);
             }
             let kernel = &self.model.kernel;
-            let mut extent = Extent::empty(kernel.counts);
+            let mut extent = Extent::empty(&window.half);
             extent.mark_loaded(&window, &values);
             low.into_iter().for_each(|at| extent.mark(at));
             // A contact that was not finished may grow far beyond.
             let part = if outcome.outgrown { 3 } else { 8 };
-            let margin = [0, 1].map(|axis| if kernel.counts[axis] > 1 { 2 + window.sizes.0[axis] / part } else { 0 });
+            let margin = [0, 1].map(|axis| {
+                let beside = if kernel.mirrored[axis] { 2 } else { 1 };
+                if kernel.counts[axis] > 1 { 2 + beside * window.sizes.0[axis] / part } else { 0 }
+            });
             let larger = Window::around(kernel, margin, &extent).filter(|_| tried < MOST_WINDOWS);
             let larger = larger.unwrap_or_else(|| Window::whole(kernel));
             values = moved(&window, &values, &larger);
@@ -162,20 +178,23 @@ impl Job<'_> {
     fn begin(&mut self, pressure: &[f64]) -> (Window, Vec<f64>) {
         let unit = self.scaled.units.pressure;
         let kernel = &self.model.kernel;
-        let loaded = Extent::of(kernel.counts, |cell| pressure[cell] > 0.0);
+        let loaded = Extent::of(&kernel.half(), |cell| pressure[cell] > 0.0);
         if let Some(around) = Window::around(kernel, [2, 2], &loaded) {
             let values = around.gather(|cell| pressure[cell] / unit);
             return (around, values);
         }
         let count = self.problem.gap.len();
         if !levels::worthwhile(kernel) {
-            return (Window::whole(kernel), vec![0.0; count]);
+            let window = Window::whole(kernel);
+            let values = vec![0.0; window.sizes.0[0] * window.sizes.0[1]];
+            return (window, values);
         }
         let varying = self.scaled.varying();
         let local = varying.map_or_else(|| self.scaled.uniform(), |local| (0..count).map(local).collect());
         let level = levels::coarser(kernel, self.scaled.sum, |cell| self.scaled.gap(cell), &local);
         let guess = levels::guess(level, self.model.threads);
-        (self.iterations, self.pairs) = (guess.iterations, guess.pairs);
+        self.iterations += guess.iterations;
+        self.pairs += guess.pairs;
         let kernel = &self.model.kernel;
         let window = guess.window(kernel).unwrap_or_else(|| Window::lowest(kernel, |cell| self.scaled.gap(cell)));
         let values = guess.on(&window);
@@ -184,27 +203,36 @@ impl Job<'_> {
 
     /// Columns and rows of the cells outside of the window that overlap by more than is allowed. If none does, the
     /// outcome's error counts them in.
-    fn overlapping(&mut self, window: &Window, values: &[f64], outcome: &mut Outcome) -> Vec<[usize; 2]> {
-        let total = sum(self.model.threads, values.len(), |place| values[place]);
+    fn overlapping(
+        &mut self,
+        window: &Window,
+        values: &[f64],
+        outcome: &mut Outcome,
+    ) -> Result<Vec<[usize; 2]>, NoImage> {
+        let total = window.sum(self.model.threads, values);
         // A cell is pushed away at least that far.
         let bound = outcome.approach - self.model.kernel.least() * total;
         let [nx, ny] = self.model.cells.counts;
-        let mut extent = Extent::empty([nx, ny]);
+        let half = window.half;
+        let mut extent = Extent::empty(&half);
         let mut doubtful = Vec::new();
         for y in 0..ny {
             for x in 0..nx {
                 let gap = self.scaled.gap(y * nx + x);
-                if gap < bound && window.place([x, y]).is_none() {
-                    extent.mark([x, y]);
-                    doubtful.push(([x, y], gap));
+                if gap < bound {
+                    let at = half.fold([x, y]).ok_or(NoImage)?;
+                    if window.place(at).is_none() && half.unfold(at) == [x, y] {
+                        extent.mark(at);
+                        doubtful.push((at, gap));
+                    }
                 }
             }
         }
         if doubtful.is_empty() {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         extent.mark_loaded(window, values);
-        let Some(view) = Window::around(&self.model.kernel, [0, 0], &extent) else { return Vec::new() };
+        let Some(view) = Window::around(&self.model.kernel, [0, 0], &extent) else { return Ok(Vec::new()) };
         let field = moved(window, values, &view);
         let mut u = vec![0.0; field.len()];
         let mut convolution = self.model.convolution(view.sizes);
@@ -217,7 +245,7 @@ impl Job<'_> {
         if self.scaled.scale > 0.0 {
             outcome.error = outcome.error.max(most / self.scaled.scale);
         }
-        low
+        Ok(low)
     }
 }
 
@@ -232,10 +260,25 @@ fn moved(window: &Window, values: &[f64], to: &Window) -> Vec<f64> {
     moved
 }
 
-/// Writes the pressures of a window times a factor to the surface, and zero elsewhere.
+/// Writes the pressures of a window times a factor to the surface, their images as well, and zero elsewhere.
 fn put(window: &Window, values: &[f64], factor: f64, pressure: &mut [f64]) {
     if !window.is_whole() {
         pressure.fill(0.0);
+    }
+    if window.half.is_part() {
+        let (half, width) = (&window.half, window.sizes.0[0]);
+        for (y, row) in values.chunks_exact(width).enumerate() {
+            let [_, up] = half.unfold(window.at(y * width));
+            for row_of in [up, half.image(1, up)] {
+                let to = &mut pressure[row_of * half.full[0]..][..half.full[0]];
+                for (x, value) in row.iter().enumerate() {
+                    let [right, _] = half.unfold(window.at(x));
+                    to[right] = value * factor;
+                    to[half.image(0, right)] = value * factor;
+                }
+            }
+        }
+        return;
     }
     let mut values = values.iter();
     for range in window.ranges() {

@@ -1,6 +1,7 @@
 //! What pressures amount to, and the ways from one to better ones that need no transform.
 
 use super::super::RootMean;
+use super::contact_set::ContactSet;
 use super::descend::NEAR;
 use super::passes::{change, each_chunk, sum};
 use super::patch::Patch;
@@ -49,13 +50,14 @@ impl State {
                     pressure.iter().zip(gap).zip(u).zip(cells).filter(|(((p, _), _), _)| **p > 0.0)
                 {
                     let gap = first + u;
-                    part.total += p;
-                    part.weighted[0] += p * gap;
-                    part.weighted[1] += p * gap.abs();
+                    let all = patch.weight(cell) * p;
+                    part.total += all;
+                    part.weighted[0] += all * gap;
+                    part.weighted[1] += all * gap.abs();
                     part.displaced = part.displaced.max(u.abs()).max(own * p);
                     part.height = part.height.max(first.abs()).max((own + patch.local(cell)) * p);
-                    part.energy += p * (0.5 * u + first);
-                    part.energies += p * (0.5 * u.abs() + first.abs());
+                    part.energy += all * (0.5 * u + first);
+                    part.energies += all * (0.5 * u.abs() + first.abs());
                 }
             }
             part
@@ -104,7 +106,9 @@ fn soft(patch: &Patch<'_>, pressure: &[f64], u: &[f64], approach: f64) -> f64 {
         let mut open = RootMean::default();
         for cell in range.filter(|cell| pressure[*cell] > 0.0) {
             let local = patch.local(cell);
-            open.add(local / (local + own) * (patch.gap[cell] + u[cell] - approach));
+            for _ in 0..patch.weight(cell) as usize {
+                open.add(local / (local + own) * (patch.gap[cell] + u[cell] - approach));
+            }
         }
         open
     });
@@ -134,10 +138,10 @@ pub fn go_back(patch: &Patch<'_>, before: &[f64], u_before: &[f64], pressure: &m
     // Where nothing touches before or after there may be no gap to multiply with.
     let along = |i: usize| {
         let change = pressure[i] - before[i];
-        if change == 0.0 { 0.0 } else { change * (patch.gap[i] + u_before[i]) }
+        if change == 0.0 { 0.0 } else { patch.weight(i) * change * (patch.gap[i] + u_before[i]) }
     };
     let slope = sum(threads, count, along);
-    let curvature = sum(threads, count, |i| (pressure[i] - before[i]) * (u[i] - u_before[i]));
+    let curvature = sum(threads, count, |i| patch.weight(i) * (pressure[i] - before[i]) * (u[i] - u_before[i]));
     let step = (-slope / curvature).clamp(0.0, 1.0);
     if step.is_nan() {
         return 1.0;
@@ -171,32 +175,33 @@ pub fn start(patch: &Patch<'_>, pressure: &mut [f64]) {
 /// Gives the pressures the sum that is given.
 pub fn rescale(patch: &Patch<'_>, pressure: &mut [f64]) {
     let Some(wanted) = patch.sum else { return };
-    let total = sum(patch.threads, pressure.len(), |cell| pressure[cell]);
+    let total = sum(patch.threads, pressure.len(), |cell| patch.weight(cell) * pressure[cell]);
     let factor = wanted / total;
     if total > 0.0 && factor.is_finite() {
         change(patch.threads, pressure, |_, p| p * factor);
     } else {
-        let touching = patch.gap.iter().filter(|gap| gap.is_finite()).count();
-        let mean = wanted / touching as f64;
+        let touching = (0..pressure.len()).filter(|cell| patch.gap[*cell].is_finite());
+        let mean = wanted / touching.map(|cell| patch.weight(cell)).sum::<f64>();
         change(patch.threads, pressure, |cell, _| if patch.gap[cell].is_finite() { mean } else { 0.0 });
     }
 }
 
 /// Moves values on a set to the nearest that are not negative and, under a load, have the sum that is given.
-pub fn project(patch: &Patch<'_>, values: &mut [f64]) {
+pub fn project(patch: &Patch<'_>, set: &ContactSet, values: &mut [f64]) {
     if let Some(wanted) = patch.sum {
         // The shift grows with each cell that it leaves without pressure, so this ends.
         let (mut shift, mut count) = (f64::NEG_INFINITY, usize::MAX);
         loop {
-            let (mut sum, mut left) = (0.0, 0);
-            for value in values.iter().filter(|value| **value > shift) {
-                sum += value;
+            let (mut sum, mut weight, mut left) = (0.0, 0.0, 0);
+            for (at, value) in values.iter().enumerate().filter(|(_, value)| **value > shift) {
+                sum += set.weight(at) * value;
+                weight += set.weight(at);
                 left += 1;
             }
             if left == 0 || left >= count {
                 break;
             }
-            (shift, count) = ((sum - wanted) / left as f64, left);
+            (shift, count) = ((sum - wanted) / weight, left);
         }
         values.iter_mut().for_each(|value| *value -= shift);
     }

@@ -191,16 +191,34 @@ impl Stencil {
         sums.iter().sum()
     }
 
-    /// Repeats the field beyond the sides where the window is the whole of a periodic surface.
+    /// Repeats the field beyond the sides where the window is the whole of a periodic surface, and its mirror image beyond
+    /// a mirror: that through the first cells, and that through the last ones where it is half of a period.
     fn wrap(&mut self, patch: &Patch<'_>) {
         let ([nx, ny], [rx, ry], pitch) = (patch.counts, self.reach, self.pitch);
-        if patch.wraps[0] {
+        let mirrored = patch.kernel.mirrored;
+        if mirrored[0] {
+            for row in self.field.chunks_exact_mut(pitch).skip(ry).take(ny) {
+                (1..=rx).for_each(|away| row[rx - away] = row[rx + away]);
+                if patch.wraps[0] {
+                    let last = rx + nx - 1;
+                    (1..=rx).for_each(|away| row[last + away] = row[last - away]);
+                }
+            }
+        } else if patch.wraps[0] {
             for row in self.field.chunks_exact_mut(pitch).skip(ry).take(ny) {
                 row.copy_within(nx..nx + rx, 0);
                 row.copy_within(rx..2 * rx, nx + rx);
             }
         }
-        if patch.wraps[1] {
+        if mirrored[1] {
+            let mut copy =
+                |from: usize, to: usize| self.field.copy_within(from * pitch..(from + 1) * pitch, to * pitch);
+            (1..=ry).for_each(|away| copy(ry + away, ry - away));
+            if patch.wraps[1] {
+                let last = ry + ny - 1;
+                (1..=ry).for_each(|away| copy(last - away, last + away));
+            }
+        } else if patch.wraps[1] {
             self.field.copy_within(ny * pitch..(ny + ry) * pitch, 0);
             self.field.copy_within(ry * pitch..2 * ry * pitch, (ny + ry) * pitch);
         }

@@ -2,6 +2,7 @@
 
 mod answers;
 mod dense;
+mod mirrors;
 mod sums;
 mod units;
 mod windows;
