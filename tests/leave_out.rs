@@ -66,6 +66,38 @@ fn equal_rows_of_a_table_are_left_out() {
     assert!(same["evaluations_at_least"].as_u64() < changing["evaluations_at_least"].as_u64());
 }
 
+/// A ball in the middle of a grid is solved on a quarter of it, and one a cell beside it on a half; the wear is the same.
+#[test]
+fn a_symmetric_contact_is_solved_on_a_part_of_its_cells() {
+    let scene = scenes().join("ball_on_flat.toml");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let cell = 3.303_840_301_032e-4 / 48.0;
+    let ran = |name: &str, at: [f64; 2]| {
+        let center = format!("surface.center=[{:e}, {:e}]", (at[0] + 0.5) * cell, (at[1] + 0.5) * cell);
+        let ran = run(&scene, &folder.path().join(name), &["--set", &center]);
+        let skipped = ran.report["plan"]["skipped"].as_array().expect("a list").clone();
+        let of_contact = |line: &Value| line["what"].as_str().is_some_and(|what| what.ends_with(" of the contact"));
+        let said: Vec<String> =
+            skipped.into_iter().filter(of_contact).map(|line| format!("{}: {}", line["what"], line["why"])).collect();
+        (said.concat(), ["/result/max_wear_depth", "/result/wear_volume"].map(|path| ran.number(path)), ran)
+    };
+    let (quarter, wear, ran_quarter) = ran("quarter", [24.0, 24.0]);
+    assert!(quarter.contains("three quarters of the contact") && quarter.contains("in x and y"), "{quarter}");
+    let (half, wear_half, ran_half) = ran("half", [23.0, 24.0]);
+    assert!(half.contains("half of the contact") && half.contains("in y"), "{half}");
+    let (whole, wear_whole, ran_whole) = ran("whole", [23.0, 22.0]);
+    assert_eq!(whole, "");
+    for others in [wear_half, wear_whole] {
+        for (one, other) in wear.iter().zip(others) {
+            assert!((one / other - 1.0).abs() < 1e-6, "{wear:?} and {others:?}");
+        }
+    }
+    for other in [ran_half, ran_whole] {
+        assert_eq!(ran_quarter.number("/cost/steps"), other.number("/cost/steps"));
+        assert_eq!(ran_quarter.number("/cost/points_evaluated"), other.number("/cost/points_evaluated"));
+    }
+}
+
 /// A scene over a stored NPZ with one time: pressure and velocity at each point, and further columns.
 fn scene(folder: &Path, name: &str, points: usize, columns: &[&str], law: &str, rest: &str) -> std::path::PathBuf {
     let history = format!("{name}.npz");

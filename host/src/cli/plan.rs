@@ -23,10 +23,11 @@ pub(super) fn command(console: &Console, arguments: PlanArguments) -> Result<Exi
     let (memory, pieces) = (run.memory(), run.pieces_planned()?);
     let total: u64 = memory.iter().map(|line| line.bytes).sum();
     let least = run.least_evaluations()?;
+    let skipped = run.skipped();
     if console.json {
         console.document(&json!({
             "computed": plan.computed,
-            "skipped": plan.skipped,
+            "skipped": skipped,
             "points": run.points(),
             "pieces_of_loading": pieces,
             "evaluations_at_least": least,
@@ -40,8 +41,8 @@ pub(super) fn command(console: &Console, arguments: PlanArguments) -> Result<Exi
         text.push_str(&labelled("-", line, 2, WIDTH));
     }
     text.push_str(&format!("\n{}\n", console.headline("left out")));
-    let widest = plan.skipped.iter().map(|skipped| skipped.what.chars().count()).max().unwrap_or(0).min(40);
-    for skipped in &plan.skipped {
+    let widest = skipped.iter().map(|skipped| skipped.what.chars().count()).max().unwrap_or(0).min(40);
+    for skipped in &skipped {
         text.push_str(&labelled(&skipped.what, &skipped.why, widest + 2, WIDTH));
     }
     text.push_str(&format!("\n{}\n", console.headline("memory for the points")));

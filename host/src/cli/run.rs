@@ -23,7 +23,7 @@ use crate::output::{
     FieldFormat, FieldSeries, Figure, Keeper, LawReport, Report, RunPage, StabilityReport, WholeFolder, check_folder,
     earlier_scene, write_history, write_plot, write_run_page,
 };
-use crate::plan::Plan;
+use crate::plan::{Plan, Skipped};
 use crate::record::{ESTIMATED, End, HistoryRow, Record};
 use crate::reference::NamedReference;
 use crate::scene::{Format, Override, Scene};
@@ -129,7 +129,8 @@ fn execute(console: &Console, settings: &Settings) -> Result<ExitCode, Error> {
         false => Estimate::of_steps(&record),
     };
     drop(watch);
-    let report = report(&scene, &plan, &law, settings.shared.isolate, &record, (error.as_ref(), &estimate))?;
+    let known = (error.as_ref(), &estimate);
+    let report = report(&scene, &plan, &law, settings.shared.isolate, &run.skipped(), &record, known)?;
     write_history(&record.history, &keeper.path().join("history.csv"))?;
     let title = scene.title.clone().unwrap_or_else(|| settings.scene.display().to_string());
     let figure =
@@ -200,6 +201,7 @@ pub(super) fn report(
     plan: &Plan,
     law: &OpenedLaw,
     isolated: bool,
+    skipped: &[Skipped],
     record: &Record<SolveError>,
     (error, estimate): (Option<&ErrorNorm>, &Estimate),
 ) -> Result<Report, Error> {
@@ -232,7 +234,7 @@ pub(super) fn report(
         },
         instructions: Instructions::asked()?.name().to_owned(),
         computed: plan.computed.clone(),
-        skipped: json("the plan", serde_json::to_value(&plan.skipped))?,
+        skipped: json("the plan", serde_json::to_value(skipped))?,
         memory: record.memory.clone(),
         last: record.history.last().copied().unwrap_or_else(|| HistoryRow::at(0.0)),
         share: plan.share,

@@ -178,7 +178,8 @@ impl Work<'_> {
             Ok(error) => (error, None),
             Err(failure) => (None, Some(failure)),
         };
-        let report = report(&scene, &plan, &law, self.shared.isolate, &record, (error.as_ref(), &estimate))?.document();
+        let known = (error.as_ref(), &estimate);
+        let report = report(&scene, &plan, &law, self.shared.isolate, &run.skipped(), &record, known)?.document();
         let found = Found {
             ended: match record.end {
                 End::Failed(_) => "failed".to_owned(),

@@ -34,7 +34,7 @@ const REFINEMENT: f64 = 1e-2;
 
 /// A plan with its history read, ready to go.
 pub(super) struct Prescribed<'p> {
-    plan: &'p Plan,
+    pub(super) plan: &'p Plan,
     evaluator: &'p dyn Evaluator,
     history: Option<History>,
     points: usize,

@@ -7,7 +7,7 @@ use super::odd::oddities;
 use super::prescribed::Prescribed;
 use super::{ErrorNorm, Estimate, Expected, Ladder, Ordinary, SolveError};
 use crate::law::Evaluator;
-use crate::plan::Plan;
+use crate::plan::{Plan, Skipped};
 use crate::record::{Checkpoint, Geometry, MemoryLine, Observer, Record};
 use crate::scene::Scene;
 
@@ -57,6 +57,14 @@ impl<'p> Run<'p> {
         match &self.kind {
             Kind::Prescribed(run) => run.geometry(),
             Kind::Coupled(run) => run.geometry(),
+        }
+    }
+
+    /// What the run leaves out, and why: what its plan does, and what its surface lets it.
+    pub fn skipped(&self) -> Vec<Skipped> {
+        match &self.kind {
+            Kind::Prescribed(run) => run.plan.skipped.clone(),
+            Kind::Coupled(run) => run.skipped(),
         }
     }
 

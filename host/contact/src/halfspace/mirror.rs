@@ -4,7 +4,7 @@
 //! them.
 
 use super::{Boundary, HalfSpace};
-use crate::{Control, Diagonal, Problem};
+use crate::{Cells, Control, Diagonal, Problem};
 
 /// Fewest cells along an axis that is worth a mirror.
 const FEWEST: usize = 16;
@@ -89,24 +89,28 @@ impl Half {
     }
 }
 
+/// Along which axes a gap on enough cells is its own mirror image, to the bit.
+pub fn of_gap(cells: &Cells, boundary: Boundary, gap: &[f64]) -> [bool; 2] {
+    [0, 1].map(|axis| {
+        let count = cells.counts[axis];
+        let fits = boundary == Boundary::Free || count.is_multiple_of(2);
+        count >= FEWEST && fits && is_mirrored(cells.counts, axis, gap)
+    })
+}
+
 /// Along which axes a problem and the pressures to start from are their own mirror image, to the bit.
 pub fn of(model: &HalfSpace, problem: &Problem<'_>, pressure: &[f64]) -> [bool; 2] {
     let (full, boundary) = (model.cells.counts, model.kernel.boundary);
     if problem.frozen.is_some() || problem.smoothed && problem.diagonal != Diagonal::Zero {
         return [false; 2];
     }
-    let fits = |axis: usize| {
-        let count = full[axis];
-        count >= FEWEST && (boundary == Boundary::Free || count.is_multiple_of(2)) && {
-            let same = |values: &[f64]| is_mirrored(full, axis, values);
-            let diagonal = match problem.diagonal {
-                Diagonal::PerPoint(values) => same(values),
-                _ => true,
-            };
-            same(problem.gap) && diagonal && same(pressure)
+    let mut mirrored = of_gap(&model.cells, boundary, problem.gap);
+    for (axis, mirrored) in mirrored.iter_mut().enumerate().filter(|(_, mirrored)| **mirrored) {
+        *mirrored = is_mirrored(full, axis, pressure);
+        if let Diagonal::PerPoint(values) = problem.diagonal {
+            *mirrored &= is_mirrored(full, axis, values);
         }
-    };
-    let mut mirrored = [fits(0), fits(1)];
+    }
     for axis in [0, 1] {
         let half = Half::new(full, mirrored, boundary);
         if !half.is_complete(axis) && reaches_far(&half, axis, problem, pressure) {

@@ -94,6 +94,13 @@ impl HalfSpace {
         self
     }
 
+    /// Along which axes a gap `[cells]` is its own mirror image about the centre of cell n/2, to the bit, so that contact on
+    /// it is solved on one side of that cell alone, with it.
+    #[must_use]
+    pub fn mirrors(&self, gap: &[f64]) -> [bool; 2] {
+        mirror::of_gap(&self.cells, self.kernel.boundary, gap)
+    }
+
     /// The same without use of mirror symmetry: every problem is solved on all cells.
     #[must_use]
     pub fn without_mirrors(mut self) -> HalfSpace {

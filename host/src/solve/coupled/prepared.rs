@@ -6,10 +6,10 @@ use super::system::{Room, Substep, System, Work};
 use crate::contact::foundation::Foundation;
 use crate::contact::halfspace::{Boundary, HalfSpace};
 use crate::contact::surface::std_of_gap;
-use crate::contact::{ContactModel, Solution};
+use crate::contact::{Cells, ContactModel, Solution};
 use crate::integrator::{Formula, Stages};
 use crate::law::Field;
-use crate::plan::{Elastic, LoadStep};
+use crate::plan::{Elastic, LoadStep, Skipped};
 use crate::record::{self, MemoryLine};
 use crate::scene::Basis;
 use crate::solve::SolveError;
@@ -27,6 +27,23 @@ impl<'p> Coupled<'p> {
     fn distances(&self) -> bool {
         let steps = self.plan.blocks.iter().flat_map(|block| &block.steps);
         steps.into_iter().any(|step| step.velocity_file.is_some() || step.stick.is_some_and(|stick| stick > 0.0))
+    }
+
+    /// What the run leaves out, and why.
+    pub(in crate::solve) fn skipped(&self) -> Vec<Skipped> {
+        let mut skipped = self.plan.skipped.clone();
+        let Elastic::HalfSpace { modulus, periodic, datum } = self.solved.elastic else { return skipped };
+        let model = half_space(self.solved.cells, (modulus, periodic, datum), 1);
+        let (part, axes) = match model.mirrors(&self.gap) {
+            _ if self.plan.material.basis == Basis::NodalStress => return skipped,
+            [true, true] => ("three quarters of the contact", "x and y"),
+            [true, false] => ("half of the contact", "x"),
+            [false, true] => ("half of the contact", "y"),
+            [false, false] => return skipped,
+        };
+        let why = format!("the gap is its own mirror image in {axes}: solved on one side as long as it stays so");
+        skipped.push(Skipped { what: part.to_owned(), why });
+        skipped
     }
 
     pub(in crate::solve) fn memory(&self) -> Vec<MemoryLine> {
@@ -57,8 +74,7 @@ impl<'p> Coupled<'p> {
         }
         if let Elastic::HalfSpace { modulus, periodic, datum } = self.solved.elastic {
             let threads = if cells < SHARED { 1 } else { std::thread::available_parallelism().map_or(1, usize::from) };
-            let boundary = if periodic { Boundary::Periodic } else { Boundary::Free };
-            let model = HalfSpace::new(self.solved.cells, modulus, boundary, datum, threads);
+            let model = half_space(self.solved.cells, (modulus, periodic, datum), threads);
             let varies = self.distances() || self.solved.scheme.slope != crate::plan::Slope::Proportional;
             let smoothed = self.plan.material.basis == Basis::NodalStress;
             let [transforms, arrays] = model.most_bytes(varies, smoothed);
@@ -77,8 +93,7 @@ impl<'p> Coupled<'p> {
         match self.solved.elastic {
             Elastic::Foundation(stiffness) => Box::new(Foundation::new(self.solved.cells, stiffness)),
             Elastic::HalfSpace { modulus, periodic, datum } => {
-                let boundary = if periodic { Boundary::Periodic } else { Boundary::Free };
-                Box::new(HalfSpace::new(self.solved.cells, modulus, boundary, datum, threads))
+                Box::new(half_space(self.solved.cells, (modulus, periodic, datum), threads))
             }
         }
     }
@@ -140,4 +155,10 @@ impl<'p> Coupled<'p> {
         }
         Ok(slides)
     }
+}
+
+/// The elastic half-space under a grid, of a contact modulus, a boundary and a datum.
+fn half_space(cells: Cells, (modulus, periodic, datum): (f64, bool, Option<f64>), threads: usize) -> HalfSpace {
+    let boundary = if periodic { Boundary::Periodic } else { Boundary::Free };
+    HalfSpace::new(cells, modulus, boundary, datum, threads)
 }
