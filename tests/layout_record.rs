@@ -148,6 +148,7 @@ fn copy(from: &Path, to: &Path, edit: &mut dyn FnMut(&Path, String) -> String) {
 
 const VIEWS: &str = "abi/views.rs";
 const DESCRIPTOR: &str = "abi/descriptor.rs";
+const EXPORT: &str = "sdk/export.rs";
 const FROZEN: &str = "layout.rs";
 
 fn refusal(name: &str, library: &Library) -> String {
@@ -225,6 +226,7 @@ fn a_law_built_with_other_structs_is_refused_and_one_built_with_longer_structs_i
         &[
             (DESCRIPTOR, "fn(id: *const c_char) ->", "fn(id: *const c_char, size: i64) ->"),
             (FROZEN, "fn(id: *const c_char) ->", "fn(id: *const c_char, size: i64) ->"),
+            (EXPORT, "(id: *const c_char) ->", "(id: *const c_char, _size: i64) ->"),
         ],
     );
     let text = refusal("recalled", &recalled);

@@ -98,7 +98,7 @@ impl Kernel {
             // With the images of all but the first.
             let span = |count: usize| if mirrored { 2 * count - 1 } else { count };
             let padded = good(2 * span(least) - 1);
-            let most = if mirrored { (padded + 3) / 4 } else { padded.div_ceil(2) };
+            let most = if mirrored { padded.div_ceil(4) } else { padded.div_ceil(2) };
             match self.boundary {
                 // Over the whole period, with as many cells of it as are needed.
                 Boundary::Periodic if padded >= period => {
