@@ -239,7 +239,7 @@ Batch {
         ["The contract"] "the host splits a substep into batches as it likes; a law never looks at other points";
     BatchEmpty "batch/empty" quick "no points: nothing is read or written, and the answer is WL_OK"
         ["The contract"] "a batch may hold any number of points, none too";
-    BatchOdd "batch/odd" quick "batches of 2 to 67 points, and around 128 to 1024, answer as single points do"
+    BatchOdd "batch/odd" quick "batches of 2 to 67 points, and around 128 to 4096, answer as single points do"
         ["The contract"] "a batch may hold any number of points, none too";
     BatchLarge "batch/large" full "a batch of 1e6 points answers as its parts do"
         ["The contract"] "a batch may hold any number of points, none too";
@@ -251,6 +251,8 @@ Batch {
         ["The fields"] "a constant is a column as any field";
     BatchStridedConstants "batch/strided-constants" quick "constants with gaps between their points answer as without"
         ["The fields"] "a constant is a column as any field";
+    BatchMixed "batch/mixed" quick "columns that lie in different ways at once answer as plain ones"
+        ["The fields"] "every column has a step of its own: 0, its width or more";
     BatchStatus "batch/status-array" quick "asking for statuses leaves the values as they are, and the worst is returned"
         ["Statuses"] "the call returns the worst status of its points, and writes one for each where asked";
 }

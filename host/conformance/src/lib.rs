@@ -99,6 +99,9 @@ pub struct CheckOptions {
 }
 
 impl CheckOptions {
+    /// The seed where none is asked for.
+    pub const SEED: u64 = 1;
+
     /// Every check of a law, with nothing else said.
     pub fn new(source: Source) -> Self {
         Self {
@@ -109,7 +112,7 @@ impl CheckOptions {
             selected: Check::ALL.to_vec(),
             left_out: Vec::new(),
             waivers: Waivers::default(),
-            seed: 1,
+            seed: Self::SEED,
             quick: false,
             timeout: TIMEOUT,
             patient: false,

@@ -115,6 +115,7 @@ fn after(check: Check) -> &'static [Check] {
         BatchUniformFields | BatchPerPointConstants => &[BatchSingles, BatchOdd],
         BatchStridedFields => &[BatchSingles, BatchOdd, BatchUniformFields],
         BatchStridedConstants => &[BatchSingles, BatchOdd, BatchPerPointConstants],
+        BatchMixed => &[BatchUniformFields, BatchStridedFields, BatchStridedConstants, BatchStatus, BatchRanges],
         StateAgain => &[StateStart, StateEnd, DeterminismRecreate],
         StateRestart => &[StateStart, StateEnd, StateAgain, DeterminismRecreate],
         DerivativePressure | DerivativeKinks => &[DerivativeAsked, ValuesFinite],

@@ -68,7 +68,7 @@ impl Replay {
     /// # Errors
     /// The folder or the file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<PathBuf, ConformanceError> {
-        let law = self.law.as_deref().map_or_else(String::new, |law| format!("{law}."));
+        let law = self.law.as_deref().map_or_else(String::new, |law| format!("{}.", as_file_name(law)));
         let path = folder.join(format!("{law}{}.json", self.check.name().replace('/', "-")));
         let written = || -> std::io::Result<()> {
             std::fs::create_dir_all(folder)?;
@@ -136,6 +136,12 @@ impl Replay {
     }
 }
 
+/// A law's name as part of a file name: whatever it is, the file stays in its folder.
+fn as_file_name(law: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' };
+    law.chars().take(64).map(plain).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -163,6 +169,19 @@ mod tests {
         replay.apply(&mut fresh);
         assert_eq!((fresh.selected.as_slice(), fresh.seed), ([Check::ValuesFinite].as_slice(), 42));
         assert_eq!(fresh.law.as_deref(), Some("archard"));
+    }
+
+    #[test]
+    fn a_law_of_any_name_leaves_its_file_in_the_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let options = CheckOptions::new(Source::Embedded("archard".to_owned()));
+        for name in ["../oops", "archard/modified", "a\u{1b}[31m", "..", &"x".repeat(400)] {
+            let (law, outcome) = (Some(name.to_owned()), Outcome::Fail(Finding::new("it is wrong")));
+            let result = CheckResult { law, check: Check::DescriptorNames, outcome, seconds: 0.5, replay: None };
+            let path = Replay::of(&result, &options, None, None).unwrap().write(folder.path()).unwrap();
+            assert_eq!(path.parent(), Some(folder.path()), "{name}");
+            assert_eq!(Replay::read(&path).unwrap().law.as_deref(), Some(name));
+        }
     }
 
     #[test]

@@ -128,6 +128,35 @@ static void columns(law_handle *h, void *instance, int64_t step, int fields) {
     compare_part(h, right, NULL, evaluate(h, instance, other, all_outputs(h)), POINTS, "columns of another step");
 }
 
+/* One field after the other given once, and all the others with gaps. */
+static void mixed(law_handle *h, void *instance) {
+    for (int once = 0; once < FIELDS; ++once) {
+        job *plain = make_job(h, POINTS, 1), *other = malloc(sizeof *other);
+        if (!plain->field[once]) {
+            continue;
+        }
+        size_t wide = sizeof(double) * (size_t)width_of(once);
+        for (int64_t i = 1; i < POINTS; ++i) {
+            memcpy(plain->field[once] + width_of(once) * i, plain->field[once], wide);
+        }
+        *other = *plain;
+        other->step[once] = 0;
+        for (int f = 0; f < FIELDS; ++f) {
+            if (f != once && plain->field[f]) {
+                int64_t width = width_of(f);
+                other->step[f] = 3 * width;
+                other->field[f] = calloc((size_t)(3 * width * POINTS), sizeof(double));
+                for (int64_t i = 0; i < POINTS; ++i) {
+                    memcpy(other->field[f] + 3 * width * i, plain->field[f] + width * i,
+                           sizeof(double) * (size_t)width);
+                }
+            }
+        }
+        compare_part(h, evaluate(h, instance, plain, all_outputs(h)), NULL,
+                     evaluate(h, instance, other, all_outputs(h)), POINTS, "one field once, the others with gaps");
+    }
+}
+
 static void statuses(law_handle *h, void *instance) {
     job *j = make_job(h, POINTS, 1);
     int64_t without = all_outputs(h) & ~WL_OUT_STATUS;
@@ -194,6 +223,8 @@ int probe_batch(const char *name, const char *path) {
         columns(h, instance, 1, 0);
     } else if (is("batch/strided-constants")) {
         columns(h, instance, 3, 0);
+    } else if (is("batch/mixed")) {
+        mixed(h, instance);
     } else if (is("batch/status-array")) {
         statuses(h, instance);
         overflow(h, instance);

@@ -236,7 +236,7 @@ pub(super) fn empty(bench: &Bench) -> Judged {
 /// Batches of 2 to 67 points, and of about as many as the blocks that a law may work in.
 pub(super) fn odd(bench: &Bench) -> Judged {
     over_ways(bench, 67, |known, differences| {
-        let blocks = [128, 256, 512, 1024].into_iter().flat_map(|block| [block - 1, block, block + 1]);
+        let blocks = [128, 256, 512, 1024, 4096].into_iter().flat_map(|block| [block - 1, block, block + 1]);
         for count in (2..=33).chain([47, 63, 64, 65, 67]).chain(blocks) {
             let indices = over_and_over(known.case.count, count);
             known.compare(&indices, &known.layout, &format!("a batch of {count} points"), differences)?;

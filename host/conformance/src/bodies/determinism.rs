@@ -117,5 +117,14 @@ pub(super) fn recreate(bench: &Bench) -> Judged {
         let what = "the same call gives another answer in another instance";
         compare(&law, &case, (&before, &again), what, &mut differences)?;
     }
+    // Of two instances either one, once the other is gone.
+    for first_goes in [true, false] {
+        let (one, other) = (law.instance(&bench.task)?, law.instance(&bench.task)?);
+        let (gone, kept) = if first_goes { (one, other) } else { (other, one) };
+        drop(gone);
+        let again = all_ways(&law, &kept, &case);
+        let what = "an instance gives another answer once another one was destroyed";
+        compare(&law, &case, (&before, &again), what, &mut differences)?;
+    }
     differences.judge(&law.about)
 }

@@ -27,6 +27,12 @@ pub(super) fn is_unit_vector(field: Field) -> bool {
     matches!(field, Field::Normal | Field::Tangent)
 }
 
+/// True for a field that is the size of something: no host gives it with a negative sign.
+fn is_size(field: Field) -> bool {
+    use Field::{AccumulatedSlip, FrictionCoefficient, FrictionWork, Slip, Velocity};
+    matches!(field, Slip | Velocity | FrictionCoefficient | FrictionWork | AccumulatedSlip)
+}
+
 /// One ordinary call of one point: a good one, or any if the law refuses all that is tried.
 fn ordinary(bench: &Bench, law: &Law<'_>, instance: &Instance<'_>) -> Case {
     let known = bench.known_constants(law);
@@ -49,6 +55,9 @@ fn tried(law: &Law<'_>, instance: &Instance<'_>, case: &Case, what: &str) -> Jud
 /// Puts `value` into every component of every field in turn, alone and together.
 fn over_fields(law: &Law<'_>, instance: &Instance<'_>, case: &Case, value: f64, tries: &mut usize) -> Judged<()> {
     for field in law.about.fields().iter().filter(|field| !is_unit_vector(*field) && field.shape() != Shape::Index) {
+        if is_size(field) && value == f64::NEG_INFINITY {
+            continue;
+        }
         let width = field.shape().width();
         let all: Vec<usize> = (0..width).collect();
         let mut choices: Vec<&[usize]> = all.chunks(1).collect();

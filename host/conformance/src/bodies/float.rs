@@ -1,6 +1,9 @@
 //! The floating-point environment: what the library found wrong in each phase of its life.
 
+use std::ffi::CStr;
+
 use super::super::harness::call::{Call, Layout};
+use super::super::harness::points::Case;
 use super::super::harness::subject::Library;
 use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
@@ -11,6 +14,9 @@ use wearlaw_law::float_env::FloatEnv;
 
 /// Calls that are made in a row.
 const MANY: usize = 30_000;
+
+/// Options that make no sense to any law.
+const ODD_OPTIONS: [&CStr; 2] = [c"no such option", c"= [0, nan"];
 
 /// The verdict on what was changed in some phases.
 fn judge(library: &Library, phases: &[Phase], hint: &str) -> Judged {
@@ -42,8 +48,9 @@ fn exercise(bench: &Bench, library: &Library) -> Judged<()> {
     for case in good.into_iter().chain(odd_cases(&mut sampler, &law.about, 40)) {
         ask(&law.about, &instance, &case, &Layout { text: Some(256), ..Layout::everything(&law.about) });
     }
-    // What happens once in many calls.
     let Some(good) = sampler.good(&instance, 1) else { return Ok(()) };
+    ask(&law.about, &instance, &Case { count: 0, ..good.clone() }, &Layout::everything(&law.about));
+    // What happens once in many calls.
     let mut call = Call::new(&law.about, &good, &Layout::everything(&law.about));
     bench.label("many calls");
     (0..MANY).take_while(|_| bench.has_time()).for_each(|_| {
@@ -60,6 +67,8 @@ pub(super) fn create(bench: &Bench) -> Judged {
         return skip("the law has no create");
     }
     drop(law.create(None));
+    // What is refused leaves it alone as well.
+    ODD_OPTIONS.into_iter().for_each(|options| drop(law.create(Some(options))));
     drop(law.instance(&bench.task)?);
     judge(&library, &[Phase::Creating], "")
 }

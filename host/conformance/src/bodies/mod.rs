@@ -92,6 +92,7 @@ pub(super) fn run(check: Check, bench: &Bench) -> Judged {
         Check::BatchStridedFields => spread::strided_fields(bench),
         Check::BatchPerPointConstants => spread::per_point_constants(bench),
         Check::BatchStridedConstants => spread::strided_constants(bench),
+        Check::BatchMixed => spread::mixed(bench),
         Check::BatchStatus => statuses::status_array(bench),
         Check::MemoryAfter => memory::after(bench),
         Check::MemoryBefore => memory::before(bench),

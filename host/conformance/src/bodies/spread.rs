@@ -2,6 +2,7 @@
 
 use super::super::harness::call::{Asked, Layout, Spread};
 use super::super::harness::points::{Case, Point};
+use super::super::harness::random::Random;
 use super::super::harness::sample::nearest;
 use super::super::harness::subject::{Instance, Law};
 use super::super::message::{Judged, skip};
@@ -112,6 +113,34 @@ pub(super) fn strided_fields(bench: &Bench) -> Judged {
             }
         }
         Ok(())
+    })
+}
+
+/// Layouts in which every column lies in a way of its own.
+const MIXED: usize = 24;
+
+/// Columns given once, side by side and with gaps in one call, each beginning at an even or odd address.
+pub(super) fn mixed(bench: &Bench) -> Judged {
+    bench.with(|law, instance| {
+        let about = &law.about;
+        let mut random = Random::new(bench.task.seed, "batch/mixed, layouts");
+        let every: Fields = Field::ALL.iter().copied().filter(|field| field.shape().width() == 3).collect();
+        let mut differences = Differences::default();
+        for case in bench.goods(law, instance, POINTS - 1)? {
+            for turn in 0..MIXED {
+                // About half of the fields are the same at all points, one after the other in any case.
+                let alone = about.fields().iter().nth(turn % about.fields().iter().count().max(1));
+                let same = about.fields().iter().filter(|field| Some(*field) == alone || random.below(2) == 0);
+                let fields: Fields = same.collect();
+                let with_vectors = fields.iter().any(is_unit_vector);
+                let case = shared(&case, if with_vectors { fields.union(every) } else { fields });
+                let plain = Layout::plain(about);
+                let other = Layout { state: Spread::Strided(1 + turn % 3), mixed: Some(random.bits()), ..plain };
+                let what = "columns given once, side by side and with gaps in the same call";
+                both(law, instance, &case, (&plain, &other), what, &mut differences)?;
+            }
+        }
+        differences.judge(about)
     })
 }
 

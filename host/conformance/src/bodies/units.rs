@@ -49,10 +49,45 @@ fn converted(case: &Case, law: &LawDescriptor, sizes: &UnitSizes, closing: f64) 
     case
 }
 
+/// What a law answers to one point, in SI units.
+struct Answered {
+    /// The wear increment, the state at the end and the derivative, with their names.
+    values: Vec<(String, f64)>,
+}
+
+impl Answered {
+    fn increment(&self) -> f64 {
+        self.values[0].1
+    }
+
+    /// The first value that is not the same as that of another answer, with what it should be.
+    fn differs(&self, wanted: &Self) -> Option<(&str, f64, f64)> {
+        let pairs = self.values.iter().zip(&wanted.values);
+        let mut pairs = pairs.map(|((name, found), (_, wanted))| (name.as_str(), *found, *wanted));
+        pairs.find(|(_, found, wanted)| !agree(*found, *wanted, TOLERANCE))
+    }
+}
+
+/// The answer to one point in SI units; none if it is refused.
+fn answered(law: &Law<'_>, instance: &Instance<'_>, case: &Case, sizes: &UnitSizes) -> Option<Answered> {
+    let about = &law.about;
+    let answers = ask(about, instance, case, &Layout::plain(about));
+    if !answers.is_good() {
+        return None;
+    }
+    let mut values = vec![("increment".to_owned(), answers.increment[0] * sizes.metre)];
+    for (variable, value) in about.state.iter().zip(&answers.state) {
+        values.push((format!("{}_end", variable.name), value * factor(sizes, variable.exponents)));
+    }
+    if let Some(slope) = answers.d_pressure.first().filter(|slope| slope.is_finite()) {
+        values.push(("d_pressure".to_owned(), slope * sizes.metre / factor(sizes, Field::Pressure.exponents())));
+    }
+    Some(Answered { values })
+}
+
 /// The wear increment in metres.
 fn metres(law: &Law<'_>, instance: &Instance<'_>, case: &Case, sizes: &UnitSizes) -> Option<f64> {
-    let answers = ask(&law.about, instance, case, &Layout::plain(&law.about));
-    answers.is_good().then(|| answers.increment[0] * sizes.metre)
+    answered(law, instance, case, sizes).map(|answered| answered.increment())
 }
 
 /// What came of the search for the factor of the closing constant.
@@ -107,8 +142,8 @@ pub(super) fn units(bench: &Bench) -> Judged {
         let mut compared = 0;
         for _ in 0..3 {
             let Some(case) = sampler.good(instance, POINTS) else { break };
-            let wanted: Vec<Option<f64>> =
-                (0..case.count).map(|index| metres(law, instance, &case.single(index), &UnitSizes::SI)).collect();
+            let wanted: Vec<Option<Answered>> =
+                (0..case.count).map(|index| answered(law, instance, &case.single(index), &UnitSizes::SI)).collect();
             for _ in 0..3 {
                 // Powers of two, so that the conversion itself rounds nothing.
                 let [metre, kilogram, second, kelvin] =
@@ -116,7 +151,9 @@ pub(super) fn units(bench: &Bench) -> Judged {
                 let sizes = UnitSizes { metre, kilogram, second, kelvin };
                 let mut closing = 1.0;
                 if closes {
-                    let wearing = (0..case.count).rev().find_map(|i| wanted[i].filter(|w| *w != 0.0).map(|w| (i, w)));
+                    let wearing = (0..case.count)
+                        .rev()
+                        .find_map(|i| wanted[i].as_ref().map(|w| (i, w.increment())).filter(|(_, w)| *w != 0.0));
                     let Some((at, depth)) = wearing else { continue };
                     match fitted(law, instance, &case.single(at), &sizes, depth) {
                         Fit::Factor(factor) => closing = factor,
@@ -124,21 +161,23 @@ pub(super) fn units(bench: &Bench) -> Judged {
                         Fit::None => return broken(unfitted(law, &case.single(at), &sizes)),
                     }
                 }
-                for (index, depth) in wanted.iter().enumerate() {
-                    let Some(depth) = *depth else { continue };
+                for (index, wanted) in wanted.iter().enumerate() {
+                    let Some(wanted) = wanted else { continue };
                     let single = converted(&case.single(index), about, &sizes, closing);
                     if !is_moderate(&single) || !is_moderate(&case.single(index)) {
                         continue;
                     }
-                    let found = metres(law, instance, &single, &sizes);
+                    let found = answered(law, instance, &single, &sizes);
                     compared += 1;
-                    if found.is_some_and(|found| agree(found, depth, TOLERANCE)) {
-                        continue;
-                    }
+                    let different = match &found {
+                        Some(found) => found.differs(wanted).map(|(name, found, wanted)| (name, Some(found), wanted)),
+                        None => Some(("increment", None, wanted.increment())),
+                    };
+                    let Some(different) = different else { continue };
                     if !stated(about) {
                         return skip("the law states no units (every quantity is a number), and is not free of them");
                     }
-                    return broken(unlike(&single, about, &sizes, found, depth));
+                    return broken(unlike(&single, about, &sizes, different));
                 }
             }
         }
@@ -156,14 +195,20 @@ fn sizes_text(sizes: &UnitSizes) -> String {
     format!("units of {metre} m, {kilogram} kg, {second} s, {kelvin} K")
 }
 
-fn unlike(single: &Case, law: &LawDescriptor, sizes: &UnitSizes, found: Option<f64>, wanted: f64) -> Finding {
+fn unlike(
+    single: &Case,
+    law: &LawDescriptor,
+    sizes: &UnitSizes,
+    (name, found, wanted): (&str, Option<f64>, f64),
+) -> Finding {
     let what = format!(
         "in {} the law answers otherwise: a quantity has another unit than it says, or a number with a unit is hidden in \
          the law",
         sizes_text(sizes)
     );
-    let found = found.map_or_else(|| "refused".to_owned(), |found| format!("increment of {} m", number_text(found)));
-    let expected = format!("{} m, as in SI units", number_text(wanted));
+    let found =
+        found.map_or_else(|| "refused".to_owned(), |found| format!("{name} of {} in SI units", number_text(found)));
+    let expected = format!("{name} of {}, as asked in SI units", number_text(wanted));
     Finding::new(what).with(found, expected).at(single.named(law, 0))
 }
 

@@ -44,6 +44,8 @@ pub(crate) struct Arrays {
     room: Room,
     /// Bytes by which plain arrays are moved away from a multiple of [`ALIGNMENT`].
     skew: usize,
+    /// Which arrays begin eight bytes later, by these bits.
+    mixed: u64,
     blocks: Vec<Block>,
     regions: Vec<Region>,
     watched: usize,
@@ -53,7 +55,14 @@ impl Arrays {
     /// No arrays yet; plain ones will begin `skew` bytes, below [`ALIGNMENT`], behind the start of a cache line.
     pub(crate) fn new(room: Room, skew: usize) -> Self {
         let (blocks, regions) = (Vec::new(), Vec::new());
-        Self { room, skew: skew % ALIGNMENT, blocks, regions, watched: fault_note::watched() }
+        Self { room, skew: skew % ALIGNMENT, mixed: 0, blocks, regions, watched: fault_note::watched() }
+    }
+
+    /// The same, some plain arrays beginning eight bytes later, by these bits.
+    pub(crate) fn mixed(self, bits: Option<u64>) -> Self {
+        let mut arrays = self;
+        arrays.mixed = bits.unwrap_or(0);
+        arrays
     }
 
     /// Makes a zeroed array of so many bytes.
@@ -76,8 +85,9 @@ impl Arrays {
             std::alloc::handle_alloc_error(layout);
         }
         let pages = (std::ptr::null_mut(), 0);
+        let later = 8 * ((self.mixed >> (self.blocks.len() % 64)) & 1) as usize;
         self.blocks.push(Block { first, length, pages, read_only, name: name.into() });
-        first.wrapping_add(PADDING + self.skew)
+        first.wrapping_add(PADDING + (self.skew + later) % ALIGNMENT)
     }
 
     fn place_guarded(&mut self, name: &str, bytes: usize, read_only: bool) -> *mut u8 {

@@ -26,13 +26,16 @@ pub(super) fn view_of(law: &LawDescriptor, case: &Case, layout: &Layout, arrays:
             let name = &law.constants[index].name;
             let once = layout.constant_alone.is_some_and(|alone| alone != index);
             let spread = if once { Spread::Uniform } else { layout.constants };
-            lay(arrays, name, case, spread, 1, |case, point, _| case.constants(point)[index])
+            let value = |case: &Case, point: usize, _: usize| case.constants(point)[index];
+            let spread = mixed(layout, case, spread, 1, 32 + index, value);
+            lay(arrays, name, case, spread, 1, value)
         })
         .collect();
     let inputs: Vec<_> = (0..law.inputs.len())
         .map(|index| {
             let name = &law.inputs[index].name;
-            lay(arrays, name, case, layout.inputs, 1, |case, point, _| case.point(point).inputs[index])
+            let value = |case: &Case, point: usize, _: usize| case.point(point).inputs[index];
+            lay(arrays, name, case, mixed(layout, case, layout.inputs, 1, 48 + index, value), 1, value)
         })
         .collect();
     view.constants = columns(arrays, "the columns of the constants", &constants);
@@ -68,18 +71,42 @@ fn lay_field(
         false => Spread::PerPoint,
     };
     if field.shape() == Shape::Index {
-        let column = lay(arrays, field.name(), case, spread, 1, |case, point, _| {
-            // The bits of the integer, as the array has room for words.
-            f64::from_bits(case.point(point).index(field).cast_unsigned())
-        });
+        // The bits of the integer, as the array has room for words.
+        let value =
+            |case: &Case, point: usize, _: usize| f64::from_bits(case.point(point).index(field).cast_unsigned());
+        let spread = mixed(layout, case, spread, 1, field as usize, value);
+        let column = lay(arrays, field.name(), case, spread, 1, value);
         if let Some(place) = index_column_of(view, field) {
             *place = abi::IndexColumn { ptr: column.ptr.cast(), step: column.step };
         }
     } else if let Some(place) = column_of(view, field) {
         let width = field.shape().width();
-        *place = lay(arrays, field.name(), case, spread, width, |case, point, component| {
-            case.point(point).real(field)[component]
-        });
+        let value = |case: &Case, point: usize, component: usize| case.point(point).real(field)[component];
+        let spread = mixed(layout, case, spread, width, field as usize, value);
+        *place = lay(arrays, field.name(), case, spread, width, value);
+    }
+}
+
+/// How a column lies where each lies in a way of its own: once for all if its values are the same at every point and the
+/// bits say so, else side by side or with gaps.
+fn mixed(
+    layout: &Layout,
+    case: &Case,
+    usual: Spread,
+    width: usize,
+    place: usize,
+    value: impl Fn(&Case, usize, usize) -> f64,
+) -> Spread {
+    let Some(bits) = layout.mixed else { return usual };
+    // Two bits of each column.
+    let pick = bits.rotate_right((2 * place % 64) as u32) & 3;
+    let same = (1..case.count)
+        .all(|point| (0..width).all(|at| value(case, point, at).to_bits() == value(case, 0, at).to_bits()));
+    match pick {
+        0 | 1 if same => Spread::Uniform,
+        0 | 2 => Spread::PerPoint,
+        1 => Spread::Strided(3),
+        _ => Spread::Strided(2),
     }
 }
 

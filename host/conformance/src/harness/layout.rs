@@ -88,6 +88,9 @@ pub(crate) struct Layout {
     pub(crate) constants: Spread,
     /// The only constant that lies as `constants` says; the others are given once.
     pub(crate) constant_alone: Option<usize>,
+    /// Every column lies in a way of its own, and begins at an even or odd address, by these bits: given once where its
+    /// values are the same at all points, side by side, or with gaps; whatever the spreads say.
+    pub(crate) mixed: Option<u64>,
     /// Doubles by which every array of doubles is moved away from an even address.
     pub(crate) skew: usize,
     /// Bytes of the buffer for a text; none: NULL.
@@ -113,6 +116,7 @@ impl Layout {
             state: Spread::PerPoint,
             constants: Spread::Uniform,
             constant_alone: None,
+            mixed: None,
             skew: 0,
             text: None,
             filling: 0,

@@ -10,6 +10,8 @@ const NAME: usize = 29;
 const OUTCOME: usize = 9;
 /// Width of the labels under a failed check.
 const LABEL: usize = 8;
+/// Most characters of a line of evidence.
+const MOST: usize = 1000;
 /// Inputs on one line.
 const LINE: usize = 100;
 
@@ -34,7 +36,7 @@ pub fn text(report: &Report, options: &CheckOptions, law: &str) -> String {
         if of != Some(&result.law) {
             match &result.law {
                 Some(name) => {
-                    let _ = writeln!(text, "law {name}");
+                    let _ = writeln!(text, "law {}", readable(name));
                 }
                 None => text.push_str("library\n"),
             }
@@ -42,7 +44,7 @@ pub fn text(report: &Report, options: &CheckOptions, law: &str) -> String {
         }
         text.push_str(&line(result));
         if let Some(finding) = result.outcome.finding() {
-            text.push_str(&evidence(result, finding, law));
+            text.push_str(&evidence(result, finding, law, options.seed));
         }
     }
     if !options.left_out.is_empty() {
@@ -74,13 +76,13 @@ fn shown(outcome: &Outcome) -> String {
 }
 
 /// What its author needs to know of a check that failed or warned.
-fn evidence(result: &CheckResult, finding: &Finding, law: &str) -> String {
+fn evidence(result: &CheckResult, finding: &Finding, law: &str, seed: u64) -> String {
     let facts = result.check.facts();
     let mut text = String::new();
     let mut row = |label: &str, words: &str| {
         for (index, line) in words.lines().enumerate() {
             let label = if index == 0 { label } else { "" };
-            let _ = writeln!(text, "      {label:<LABEL$}  {line}");
+            let _ = writeln!(text, "      {label:<LABEL$}  {}", readable(line));
         }
     };
     row("what", &finding.what);
@@ -106,9 +108,28 @@ fn evidence(result: &CheckResult, finding: &Finding, law: &str) -> String {
         Some(path) => {
             row("again", &format!("wearlaw check {} --replay {}", quoted(&law), quoted(&path.display().to_string())))
         }
-        None => row("again", &format!("wearlaw check {} --only {}", quoted(&law), facts.name)),
+        None => {
+            let seed = if seed == CheckOptions::SEED { String::new() } else { format!(" --seed {seed}") };
+            row("again", &format!("wearlaw check {} --only {}{seed}", quoted(&law), facts.name));
+        }
     }
     text
+}
+
+/// A line as a terminal can show it: a law may have printed anything, or have names of anything.
+fn readable(line: &str) -> String {
+    let mut shown: String = line.chars().take(MOST).flat_map(escaped).collect();
+    if line.chars().nth(MOST).is_some() {
+        shown.push_str(" ..");
+    }
+    shown
+}
+
+/// A character, or what stands for one that would steer the terminal.
+fn escaped(c: char) -> impl Iterator<Item = char> {
+    let steers = c.is_control() && c != '\t';
+    let plain = (!steers).then_some(c);
+    plain.into_iter().chain(steers.then(|| c.escape_default()).into_iter().flatten())
 }
 
 /// Inputs as `name value`, as many on a line as fit.
@@ -190,13 +211,25 @@ mod tests {
             "      found     increment 1e-9\n      expected  increment 0\n",
             "rule      a substep of no length, dt = 0 and no slip, wears nothing",
             "(include/README.md, \"The contract\")",
-            "again     wearlaw check 'my laws/a.so#a' --only values/zero-dt",
+            "again     wearlaw check 'my laws/a.so#a' --only values/zero-dt\n",
             "the law has no state variables",
             "says nothing since batch/singles failed",
             "falls short: 1 pass, 1 fail, 1 blocked, 1 skipped (1.2 s, seed 7)",
         ] {
             assert!(text.contains(words), "{words}\nin\n{text}");
         }
+    }
+
+    #[test]
+    fn a_command_keeps_the_seed_and_nothing_steers_the_terminal() {
+        let (mut report, mut options) = report();
+        options.seed = 2;
+        let found = Finding::new("it says \0\u{1b}[31mred").with("x".repeat(5000), "less");
+        report.results[1].outcome = Outcome::Warn(found);
+        let text = text(&report, &options, "a.so");
+        assert!(text.contains("--only values/zero-dt --seed 2\n"), "{text}");
+        assert!(text.contains("it says \\u{0}\\u{1b}[31mred\n"), "{text}");
+        assert!(text.lines().all(|line| line.len() < 1100 && !line.contains(['\0', '\u{1b}'])), "{text}");
     }
 
     #[test]
