@@ -8,9 +8,9 @@ use crate::{Cells, Control, Diagonal, Problem};
 
 /// Fewest cells along an axis that is worth a mirror.
 const FEWEST: usize = 16;
-/// Part of the cells on one side, in eighths, from which a contact is held to be about to reach the end of a surface whose
-/// first cells have no image: a mirror would have to be given up.
-const NEAR_END: usize = 5;
+/// Cells between a contact and the end of a surface whose first cells have no image, at which a mirror is given up before it
+/// has to be.
+const NEAR_END: usize = 2;
 
 /// The cells of a surface that a problem is solved on: all of them, or those on one side of a mirror, with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,7 +135,7 @@ fn is_mirrored([nx, ny]: [usize; 2], axis: usize, values: &[f64]) -> bool {
 
 /// Whether a contact is about to reach the end of a surface along an axis, as far as its start and approach tell.
 fn reaches_far(half: &Half, axis: usize, problem: &Problem<'_>, pressure: &[f64]) -> bool {
-    let (nx, far) = (half.full[0], half.counts[axis] * NEAR_END / 8);
+    let (nx, far) = (half.full[0], half.counts[axis] - NEAR_END);
     let held = if let Control::Approach(approach) = problem.control { approach } else { f64::NEG_INFINITY };
     let loaded = pressure.iter().zip(problem.gap).enumerate().filter(|(_, (p, gap))| **p > 0.0 || **gap < held);
     loaded.into_iter().any(|(cell, _)| [cell % nx, cell / nx][axis].abs_diff(half.base(axis)) >= far)

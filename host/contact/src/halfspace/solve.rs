@@ -201,8 +201,25 @@ impl Job<'_> {
         (window, values)
     }
 
+    /// The displacement of all cells by the pressures of a mirrored window and their images.
+    fn everywhere(&mut self, window: &Window, values: &[f64]) -> Vec<f64> {
+        let mirrored = std::mem::take(&mut self.model.kernel.mirrored);
+        let whole = Window::whole(&self.model.kernel);
+        let (mut pressure, mut u) = (vec![0.0; self.problem.gap.len()], vec![0.0; self.problem.gap.len()]);
+        put(window, values, 1.0, &mut pressure);
+        let mut convolution = self.model.convolution(whole.sizes);
+        convolution.apply(&Dense { width: whole.sizes.0[0], input: &pressure }, &mut u);
+        self.model.keep(convolution);
+        self.model.kernel.mirrored = mirrored;
+        self.pairs += 1;
+        u
+    }
+
     /// Columns and rows of the cells outside of the window that overlap by more than is allowed. If none does, the
     /// outcome's error counts them in.
+    ///
+    /// # Errors
+    /// One that overlaps has no image among the cells that are solved for.
     fn overlapping(
         &mut self,
         window: &Window,
@@ -215,17 +232,26 @@ impl Job<'_> {
         let [nx, ny] = self.model.cells.counts;
         let half = window.half;
         let mut extent = Extent::empty(&half);
-        let mut doubtful = Vec::new();
+        let (mut doubtful, mut without) = (Vec::new(), Vec::new());
         for y in 0..ny {
             for x in 0..nx {
                 let gap = self.scaled.gap(y * nx + x);
                 if gap < bound {
-                    let at = half.fold([x, y]).ok_or(NoImage)?;
-                    if window.place(at).is_none() && half.unfold(at) == [x, y] {
-                        extent.mark(at);
-                        doubtful.push((at, gap));
+                    match half.fold([x, y]) {
+                        Some(at) if window.place(at).is_none() && half.unfold(at) == [x, y] => {
+                            extent.mark(at);
+                            doubtful.push((at, gap));
+                        }
+                        Some(_) => {}
+                        None => without.push((y * nx + x, gap)),
                     }
                 }
+            }
+        }
+        if !without.is_empty() {
+            let u = self.everywhere(window, values);
+            if without.into_iter().any(|(cell, gap)| outcome.approach - gap - u[cell] > outcome.bar) {
+                return Err(NoImage);
             }
         }
         if doubtful.is_empty() {

@@ -143,7 +143,16 @@ fn what_is_not_symmetric_to_the_bit_is_solved_on_all() {
     assert_eq!(mirror::of(&model, &Problem { frozen: Some(&set), ..even }, &nothing), [false; 2]);
     // A contact that has come near the first row, which has no image.
     let mut wide = nothing;
-    wide[20 * 40 + 4] = 1.0;
-    wide[20 * 40 + 36] = 1.0;
+    wide[20 * 40 + 2] = 1.0;
+    wide[20 * 40 + 38] = 1.0;
     assert_eq!(mirror::of(&model, &even, &wide), [false, true]);
+}
+
+#[test]
+fn a_row_without_image_that_does_not_touch_is_no_reason_to_solve_on_all_cells() {
+    // The contact fills most of the grid: a look at the gap of its first row does not tell that it stays open.
+    let cells = plane([32, 32], [1e-3, 1e-3]);
+    let gap = bowl(&cells, 0.2);
+    let load = Control::Load(MODULUS * 4.0 / 3.0 * 0.0137_f64.powi(3) / 0.2);
+    agree(cells, Boundary::Free, &problem(&gap, load), [true; 2], "a wide contact");
 }
