@@ -173,6 +173,8 @@ pub(super) fn create(bench: &Bench) -> Judged {
     if law.table.create.is_none() {
         return skip("the law has no create");
     }
+    let words = bench.task.options.as_deref().and_then(|words| CString::new(words).ok());
+    let usual = law.create(words.as_deref()).map(drop);
     let long = "no-such-option = 1; ".repeat(500);
     let options = [None, Some(""), Some("no such option"), Some("no-such-file.csv"), Some("=%s%n\u{1}"), Some(&long)];
     let mut refused = 0;
@@ -189,6 +191,12 @@ pub(super) fn create(bench: &Bench) -> Judged {
                 "a status of this version, and a text that says why",
             ));
         }
+    }
+    // What was refused is none of the business of the next one.
+    bench.label("create with the usual options, after others were refused");
+    if let (Ok(()), Err((status, text))) = (&usual, law.create(words.as_deref()).map(drop)) {
+        let finding = Finding::new("create refuses the usual options once others were refused");
+        return broken(finding.with(format!("status {status}, text {text:?}"), "an instance, as before"));
     }
     Ok(Verdict::Pass(Some(format!("{refused} of 6 options refused, each with a text"))))
 }
