@@ -1,7 +1,7 @@
 //! Arrays with guards, arrays that cannot be written, outputs that are not written, and pointers that are NULL.
 
 use super::super::harness::arrays::Room;
-use super::super::harness::call::{Answers, Asked, Given, Layout};
+use super::super::harness::call::{Answers, Asked, Given, Layout, Spread};
 use super::super::harness::points::Case;
 use super::super::harness::subject::{Instance, Law};
 use super::super::message::{Judged, Verdict, broken, skip};
@@ -42,6 +42,15 @@ pub(super) fn after(bench: &Bench) -> Judged {
     let layout = |law: &LawDescriptor| Layout { room: Room::GuardBehind, ..Layout::plain(law) };
     over_sizes(bench, layout, |law, instance, case, layout| {
         ask(&law.about, instance, case, layout);
+        // What is given once is one value long, and what has gaps ends with its last value.
+        let gaps = Spread::Strided(3);
+        ask(&law.about, instance, case, &Layout { uniform: law.about.fields(), inputs: Spread::Uniform, ..*layout });
+        ask(
+            &law.about,
+            instance,
+            case,
+            &Layout { fields: gaps, inputs: gaps, state: gaps, constants: gaps, ..*layout },
+        );
         Ok(())
     })
 }

@@ -5,7 +5,7 @@ use super::super::harness::points::{Case, Point};
 use super::super::harness::random::Random;
 use super::super::harness::sample::nearest;
 use super::super::harness::subject::{Instance, Law};
-use super::super::message::{Judged, skip};
+use super::super::message::{Judged, broken, skip};
 use super::super::outcome::Finding;
 use super::batch::{Known, over_and_over, over_ways};
 use super::bench::{Bench, Differences, POINTS, ask, not_finite, still_good};
@@ -14,6 +14,9 @@ use wearlaw_law::{Field, Fields};
 
 /// Points that fill two blocks and begin a third, whatever the size of the blocks a law works in (1024 at most).
 const BLOCKS: usize = 2051;
+
+/// What outputs hold before a call: no answer.
+const UNLIKELY: u64 = 0x7ff4_dead_beef_5a5a;
 
 /// Points that share the values of some fields, given once or at every point.
 fn shared(case: &Case, fields: Fields) -> Case {
@@ -45,6 +48,12 @@ fn both(
             }
             let answers = ask(about, instance, &case, &Layout { asked, ..*other });
             still_good(about, &case, &answers, what)?;
+            let statuses = expected.point_status.iter().zip(&answers.point_status).enumerate();
+            if let Some((point, (wanted, found))) = statuses.into_iter().find(|(_, (wanted, found))| wanted != found) {
+                let finding =
+                    Finding::new(format!("{what}: the status of point {point} is another one, or not written"));
+                return broken(finding.with(format!("{found}"), format!("{wanted}")).at(case.named(about, point)));
+            }
             for point in 0..case.count {
                 differences.note(expected.at(point).difference(&answers.at(point)), || {
                     Finding::new(what).at(case.named(about, point))
@@ -116,32 +125,83 @@ pub(super) fn strided_fields(bench: &Bench) -> Judged {
     })
 }
 
-/// Layouts in which every column lies in a way of its own.
+/// Layouts in which every column lies in a way of its own, and arrays that are moved by themselves.
 const MIXED: usize = 24;
+const MOVED: usize = 32;
 
-/// Columns given once, side by side and with gaps in one call, each beginning at an even or odd address.
+/// Columns given once, side by side and with gaps in one call, some with constants of their own; arrays of which some begin
+/// at an address that pairs of numbers do not like.
 pub(super) fn mixed(bench: &Bench) -> Judged {
     bench.with(|law, instance| {
         let about = &law.about;
         let mut random = Random::new(bench.task.seed, "batch/mixed, layouts");
         let every: Fields = Field::ALL.iter().copied().filter(|field| field.shape().width() == 3).collect();
+        let read: Vec<Field> = about.fields().iter().collect();
         let mut differences = Differences::default();
         for case in bench.goods(law, instance, POINTS - 1)? {
+            let own = own_constants(bench, law, instance, &case);
+            let plain = Layout::plain(about);
             for turn in 0..MIXED {
-                // About half of the fields are the same at all points, one after the other in any case.
-                let alone = about.fields().iter().nth(turn % about.fields().iter().count().max(1));
-                let same = about.fields().iter().filter(|field| Some(*field) == alone || random.below(2) == 0);
-                let fields: Fields = same.collect();
+                // About half of the fields are the same at all points, each of them in its turn in any case.
+                let alone = read.get(turn % read.len().max(1));
+                let same = read.iter().filter(|field| Some(*field) == alone || random.below(2) == 0);
+                let fields: Fields = same.copied().collect();
                 let with_vectors = fields.iter().any(is_unit_vector);
-                let case = shared(&case, if with_vectors { fields.union(every) } else { fields });
-                let plain = Layout::plain(about);
-                let other = Layout { state: Spread::Strided(1 + turn % 3), mixed: Some(random.bits()), ..plain };
+                let mut case = shared(&case, if with_vectors { fields.union(every) } else { fields });
+                if turn % 3 == 0 {
+                    case.constants_at = Some(own.clone());
+                }
+                let plain = Layout { constants: Spread::PerPoint, ..plain };
+                let state = Spread::Strided(1 + turn % 3);
+                let (mixed, skews) = (Some(random.bits()), random.bits());
+                let other = Layout { state, mixed, skews, filling: UNLIKELY, ..plain };
                 let what = "columns given once, side by side and with gaps in the same call";
                 both(law, instance, &case, (&plain, &other), what, &mut differences)?;
+            }
+            for place in 0..MOVED {
+                let skews = if place % 2 == 0 { 1 << (place / 2) } else { random.bits() };
+                let what = "arrays of which some begin at an odd multiple of eight bytes";
+                both(law, instance, &case, (&plain, &Layout { skews, ..plain }), what, &mut differences)?;
             }
         }
         differences.judge(about)
     })
+}
+
+/// Whether the law answers a call of one point with good, finite values.
+fn answers_well(law: &Law<'_>, instance: &Instance<'_>, case: &Case) -> bool {
+    let answers = ask(&law.about, instance, case, &Layout::plain(&law.about));
+    answers.is_good() && not_finite(&answers, 0).is_none()
+}
+
+/// Constants for each point of a case that go with it; at some points one of them is 0, or as near to it as it may be.
+fn own_constants(bench: &Bench, law: &Law<'_>, instance: &Instance<'_>, case: &Case) -> Vec<Vec<f64>> {
+    let about = &law.about;
+    let known = bench.known_constants(law);
+    let mut sampler = bench.sampler(law, &known);
+    let mut each = Vec::new();
+    for point in 0..case.count {
+        // Constants that go with this point; the shared ones do in any case.
+        let mut single = case.single(point);
+        for _ in 0..10 {
+            single.constants = sampler.constants();
+            if answers_well(law, instance, &single) {
+                break;
+            }
+            single.constants.clone_from(&case.constants);
+        }
+        let mut least = single.clone();
+        if !about.constants.is_empty() {
+            let place = point / 2 % about.constants.len();
+            least.constants[place] = nearest(&about.constants[place]);
+        }
+        each.push(if point % 2 == 1 && answers_well(law, instance, &least) {
+            least.constants
+        } else {
+            single.constants
+        });
+    }
+    each
 }
 
 /// Points with constants of their own, against each alone.
@@ -152,29 +212,8 @@ fn with_constants_at(bench: &Bench, spreads: &[Spread], what: &str) -> Judged {
             return skip("the law has no constants");
         }
         let mut case = bench.good(law, instance, POINTS - 1)?;
-        let known = bench.known_constants(law);
-        let mut sampler = bench.sampler(law, &known);
-        let good = |case: &Case| {
-            let answers = ask(about, instance, case, &Layout::plain(about));
-            answers.is_good() && not_finite(&answers, 0).is_none()
-        };
-        let mut each = Vec::new();
-        for point in 0..case.count {
-            // Constants that go with this point; the shared ones do in any case.
-            let mut single = case.single(point);
-            for _ in 0..10 {
-                single.constants = sampler.constants();
-                if good(&single) {
-                    break;
-                }
-                single.constants.clone_from(&case.constants);
-            }
-            // At some points one of them is 0, or as near to it as it may be.
-            let mut least = single.clone();
-            let place = point / 2 % about.constants.len();
-            least.constants[place] = nearest(&about.constants[place]);
-            each.push(if point % 2 == 1 && good(&least) { least.constants } else { single.constants });
-        }
+        let good = |case: &Case| answers_well(law, instance, case);
+        let each = own_constants(bench, law, instance, &case);
         case.constants_at = Some(each.clone());
         let same = Case { constants_at: Some(vec![case.constants.clone()]), ..case.clone() };
         let mut cases = vec![(case.clone(), None), (same, None)];

@@ -44,8 +44,8 @@ pub(crate) struct Arrays {
     room: Room,
     /// Bytes by which plain arrays are moved away from a multiple of [`ALIGNMENT`].
     skew: usize,
-    /// Which arrays begin eight bytes later, by these bits.
-    mixed: u64,
+    /// Which arrays begin eight bytes later.
+    skews: u64,
     blocks: Vec<Block>,
     regions: Vec<Region>,
     watched: usize,
@@ -55,14 +55,13 @@ impl Arrays {
     /// No arrays yet; plain ones will begin `skew` bytes, below [`ALIGNMENT`], behind the start of a cache line.
     pub(crate) fn new(room: Room, skew: usize) -> Self {
         let (blocks, regions) = (Vec::new(), Vec::new());
-        Self { room, skew: skew % ALIGNMENT, mixed: 0, blocks, regions, watched: fault_note::watched() }
+        Self { room, skew: skew % ALIGNMENT, skews: 0, blocks, regions, watched: fault_note::watched() }
     }
 
-    /// The same, some plain arrays beginning eight bytes later, by these bits.
-    pub(crate) fn mixed(self, bits: Option<u64>) -> Self {
-        let mut arrays = self;
-        arrays.mixed = bits.unwrap_or(0);
-        arrays
+    /// The same, the arrays whose bit is set, in the order in which they are made, beginning eight bytes later if plain.
+    pub(crate) fn skewed(mut self, skews: u64) -> Self {
+        self.skews = skews;
+        self
     }
 
     /// Makes a zeroed array of so many bytes.
@@ -85,7 +84,7 @@ impl Arrays {
             std::alloc::handle_alloc_error(layout);
         }
         let pages = (std::ptr::null_mut(), 0);
-        let later = 8 * ((self.mixed >> (self.blocks.len() % 64)) & 1) as usize;
+        let later = 8 * ((self.skews >> (self.blocks.len() % 64)) & 1) as usize;
         self.blocks.push(Block { first, length, pages, read_only, name: name.into() });
         first.wrapping_add(PADDING + (self.skew + later) % ALIGNMENT)
     }

@@ -73,7 +73,7 @@ pub(crate) fn good(status: i32) -> bool {
 impl Call {
     /// Lays a case out.
     pub(crate) fn new(law: &LawDescriptor, case: &Case, layout: &Layout) -> Self {
-        let mut arrays = Arrays::new(layout.room, 8 * layout.skew).mixed(layout.mixed);
+        let mut arrays = Arrays::new(layout.room, 8 * layout.skew).skewed(layout.skews);
         let mut view = view_of(law, case, layout, &mut arrays);
         let outputs = Outputs::place(&mut arrays, law, case.count, layout);
         view.request = bits(&layout.asked);

@@ -88,9 +88,11 @@ pub(crate) struct Layout {
     pub(crate) constants: Spread,
     /// The only constant that lies as `constants` says; the others are given once.
     pub(crate) constant_alone: Option<usize>,
-    /// Every column lies in a way of its own, and begins at an even or odd address, by these bits: given once where its
-    /// values are the same at all points, side by side, or with gaps; whatever the spreads say.
+    /// Every column lies in a way of its own by these bits: given once where its values are the same at all points, side by
+    /// side, or with gaps; whatever the spreads say.
     pub(crate) mixed: Option<u64>,
+    /// Which arrays, in the order in which they are made, begin eight bytes later.
+    pub(crate) skews: u64,
     /// Doubles by which every array of doubles is moved away from an even address.
     pub(crate) skew: usize,
     /// Bytes of the buffer for a text; none: NULL.
@@ -117,6 +119,7 @@ impl Layout {
             constants: Spread::Uniform,
             constant_alone: None,
             mixed: None,
+            skews: 0,
             skew: 0,
             text: None,
             filling: 0,
