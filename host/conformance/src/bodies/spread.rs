@@ -126,7 +126,7 @@ pub(super) fn strided_fields(bench: &Bench) -> Judged {
 }
 
 /// Layouts in which every column lies in a way of its own, and arrays that are moved by themselves.
-const MIXED: usize = 24;
+const MIXED: usize = 48;
 const MOVED: usize = 32;
 
 /// Columns given once, side by side and with gaps in one call, some with constants of their own; arrays of which some begin
@@ -148,11 +148,13 @@ pub(super) fn mixed(bench: &Bench) -> Judged {
                 let fields: Fields = same.copied().collect();
                 let with_vectors = fields.iter().any(is_unit_vector);
                 let mut case = shared(&case, if with_vectors { fields.union(every) } else { fields });
+                // Constants of each point's own, columns of shared ones, and shared ones given once.
+                let constants = if turn % 3 == 2 { Spread::Uniform } else { Spread::PerPoint };
                 if turn % 3 == 0 {
                     case.constants_at = Some(own.clone());
                 }
-                let plain = Layout { constants: Spread::PerPoint, ..plain };
-                let state = Spread::Strided(1 + turn % 3);
+                let plain = Layout { constants, ..plain };
+                let state = Spread::Strided(1 + turn / 3 % 3);
                 let (mixed, skews) = (Some(random.bits()), random.bits());
                 let other = Layout { state, mixed, skews, filling: UNLIKELY, ..plain };
                 let what = "columns given once, side by side and with gaps in the same call";

@@ -97,7 +97,7 @@ fn mixed(
     place: usize,
     value: impl Fn(&Case, usize, usize) -> f64,
 ) -> Spread {
-    let Some(bits) = layout.mixed else { return usual };
+    let Some(bits) = layout.mixed.filter(|_| usual != Spread::Uniform) else { return usual };
     // Two bits of each column.
     let pick = bits.rotate_right((2 * place % 64) as u32) & 3;
     let same = (1..case.count)

@@ -89,7 +89,7 @@ pub(crate) struct Layout {
     /// The only constant that lies as `constants` says; the others are given once.
     pub(crate) constant_alone: Option<usize>,
     /// Every column lies in a way of its own by these bits: given once where its values are the same at all points, side by
-    /// side, or with gaps; whatever the spreads say.
+    /// side, or with gaps; those that are given once anyway stay so.
     pub(crate) mixed: Option<u64>,
     /// Which arrays, in the order in which they are made, begin eight bytes later.
     pub(crate) skews: u64,
