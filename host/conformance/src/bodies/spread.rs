@@ -141,7 +141,7 @@ pub(super) fn mixed(bench: &Bench) -> Judged {
         for case in bench.goods(law, instance, POINTS - 1)? {
             let own = own_constants(bench, law, instance, &case);
             let plain = Layout::plain(about);
-            for turn in 0..MIXED {
+            for turn in (0..MIXED).take_while(|_| bench.has_time()) {
                 // About half of the fields are the same at all points, each of them in its turn in any case.
                 let alone = read.get(turn % read.len().max(1));
                 let same = read.iter().filter(|field| Some(*field) == alone || random.below(2) == 0);
@@ -160,7 +160,7 @@ pub(super) fn mixed(bench: &Bench) -> Judged {
                 let what = "columns given once, side by side and with gaps in the same call";
                 both(law, instance, &case, (&plain, &other), what, &mut differences)?;
             }
-            for place in 0..MOVED {
+            for place in (0..MOVED).take_while(|_| bench.has_time()) {
                 let skews = if place % 2 == 0 { 1 << (place / 2) } else { random.bits() };
                 let what = "arrays of which some begin at an odd multiple of eight bytes";
                 both(law, instance, &case, (&plain, &Layout { skews, ..plain }), what, &mut differences)?;
