@@ -29,17 +29,17 @@ fn shared(case: &Case, fields: Fields) -> Case {
     })
 }
 
-/// Compares a case, small and over several blocks, in two layouts in every way of asking.
+/// Compares a case, as it is and over so many points, in two layouts in every way of asking.
 fn both(
     law: &Law<'_>,
     instance: &Instance<'_>,
-    case: &Case,
+    (case, points): (&Case, Option<usize>),
     (usual, other): (&Layout, &Layout),
     what: &str,
     differences: &mut Differences,
 ) -> Judged<()> {
     let about = &law.about;
-    for case in [case.clone(), case.repeated(BLOCKS)] {
+    for case in [Some(case.clone()), points.map(|points| case.repeated(points))].into_iter().flatten() {
         for asked in Asked::ways(about) {
             let expected = ask(about, instance, &case, &Layout { asked, ..*usual });
             if !expected.is_good() {
@@ -83,14 +83,14 @@ pub(super) fn uniform_fields(bench: &Bench) -> Judged {
                 let case = shared(&case, if with_vectors { fields.union(every) } else { fields });
                 let what = format!("{fields} given once (step 0) instead of at every point");
                 let once = Layout { uniform: fields, ..plain };
-                both(law, instance, &case, (&plain, &once), &what, &mut differences)?;
+                both(law, instance, (&case, Some(BLOCKS)), (&plain, &once), &what, &mut differences)?;
             }
             let inputs = case.point(0).inputs.clone();
             if !inputs.is_empty() {
                 let case = case.map(|point| point.inputs.clone_from(&inputs));
                 let once = Layout { inputs: Spread::Uniform, ..plain };
                 let what = "inputs given once (step 0) instead of at every point";
-                both(law, instance, &case, (&plain, &once), what, &mut differences)?;
+                both(law, instance, (&case, Some(BLOCKS)), (&plain, &once), what, &mut differences)?;
             }
         }
         differences.judge(about)
@@ -140,6 +140,8 @@ pub(super) fn mixed(bench: &Bench) -> Judged {
         let mut differences = Differences::default();
         for case in bench.goods(law, instance, POINTS - 1)? {
             let own = own_constants(bench, law, instance, &case);
+            // Over several blocks now and then: it takes its time.
+            let several = |turn: usize| turn.is_multiple_of(8).then_some(BLOCKS);
             let plain = Layout::plain(about);
             for turn in (0..MIXED).take_while(|_| bench.has_time()) {
                 // About half of the fields are the same at all points, each of them in its turn in any case.
@@ -158,12 +160,13 @@ pub(super) fn mixed(bench: &Bench) -> Judged {
                 let (mixed, skews) = (Some(random.bits()), random.bits());
                 let other = Layout { state, mixed, skews, filling: UNLIKELY, ..plain };
                 let what = "columns given once, side by side and with gaps in the same call";
-                both(law, instance, &case, (&plain, &other), what, &mut differences)?;
+                both(law, instance, (&case, several(turn)), (&plain, &other), what, &mut differences)?;
             }
             for place in (0..MOVED).take_while(|_| bench.has_time()) {
                 let skews = if place % 2 == 0 { 1 << (place / 2) } else { random.bits() };
                 let what = "arrays of which some begin at an odd multiple of eight bytes";
-                both(law, instance, &case, (&plain, &Layout { skews, ..plain }), what, &mut differences)?;
+                let moved = Layout { skews, ..plain };
+                both(law, instance, (&case, several(place)), (&plain, &moved), what, &mut differences)?;
             }
         }
         differences.judge(about)
