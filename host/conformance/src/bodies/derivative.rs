@@ -273,12 +273,10 @@ mod tests {
             let at = |piece: f64| (piece * 1e4).powi(2) * 1e-20;
             at(piece) + (at(piece + 1.0) - at(piece)) * (x / 1e4 - piece)
         };
-        let (x, slope) = (3.123_4e6, (table(3.124e6) - table(3.123e6)) / 1e3 / 1.0);
-        let slope_here = (table(x + 10.0) - table(x - 10.0)) / 20.0;
-        assert!((slope - slope_here).abs() < 1e-3 * slope_here);
+        let x = 3.123_4e6;
+        let slope = (table(x + 10.0) - table(x - 10.0)) / 20.0;
         let agrees = SCALES.into_iter().filter_map(|part| ridders(|x| Some(table(x)), x, part * x)).any(|found| {
-            found.error <= SHARP * found.value
-                && (found.value - slope_here).abs() <= 20.0 * found.error + 1e-6 * slope_here
+            found.error <= SHARP * found.value && (found.value - slope).abs() <= 20.0 * found.error + 1e-6 * slope
         });
         assert!(agrees, "the slope of its own piece is right");
     }

@@ -1,6 +1,6 @@
 //! What goes so wrong that no answer comes back: ordinary and provoking inputs, in a thread with a usual stack.
 
-use std::ffi::CString;
+use std::ffi::{CStr, CString};
 use std::time::{Duration, Instant};
 
 use wearlaw_plugin_api::abi;
@@ -26,6 +26,9 @@ const STACK: usize = 2 << 20;
 
 /// Values that laws stumble over.
 const ODD: [f64; 9] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, -0.0, 1e300, -1e300, 5e-324];
+
+/// Options that make no sense to any law.
+pub(super) const NO_OPTION: &CStr = c"no such option";
 
 /// Calls of one point each with an odd value of one field, constant, state variable or input that a host could give,
 /// and `wild` points whose values run over all decades.

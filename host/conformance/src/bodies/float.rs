@@ -1,7 +1,5 @@
 //! The floating-point environment: what the library found wrong in each phase of its life.
 
-use std::ffi::CStr;
-
 use super::super::harness::call::{Call, Layout};
 use super::super::harness::points::Case;
 use super::super::harness::subject::Library;
@@ -9,14 +7,11 @@ use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::super::slate::Phase;
 use super::bench::{Bench, POINTS, ask};
-use super::faults::odd_cases;
+use super::faults::{NO_OPTION, odd_cases};
 use wearlaw_law::float_env::FloatEnv;
 
 /// Calls that are made in a row.
 const MANY: usize = 30_000;
-
-/// Options that make no sense to any law.
-const ODD_OPTIONS: [&CStr; 2] = [c"no such option", c"= [0, nan"];
 
 /// The verdict on what was changed in some phases.
 fn judge(library: &Library, phases: &[Phase], hint: &str) -> Judged {
@@ -68,7 +63,7 @@ pub(super) fn create(bench: &Bench) -> Judged {
     }
     drop(law.create(None));
     // What is refused leaves it alone as well.
-    ODD_OPTIONS.into_iter().for_each(|options| drop(law.create(Some(options))));
+    drop(law.create(Some(NO_OPTION)));
     drop(law.instance(&bench.task)?);
     judge(&library, &[Phase::Creating], "")
 }

@@ -3,17 +3,17 @@
 
 use std::io::Read;
 
-use super::super::harness::call::{Call, Layout};
+use super::super::harness::call::{Call, Layout, good};
 use super::super::harness::subject::{Instance, Law};
 use super::super::harness::surroundings::open_files;
 use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::bench::Bench;
-use super::faults::odd_cases;
+use super::faults::{NO_OPTION, odd_cases};
 
 /// Calls that are made.
 const CALLS: usize = 100_000;
-/// Points of a refused batch, which is every so manieth call.
+/// Points of a refused batch, and of how many calls it is one.
 const REFUSED: usize = 2000;
 const SELDOM: usize = 32;
 /// Calls before anything is measured: what a law sets up once is no leak.
@@ -89,24 +89,23 @@ fn growing(marks: [InUse; 3], times: f64, what: &str) -> Option<Finding> {
 pub(super) fn calls(bench: &Bench) -> Judged {
     bench.with(|law, instance| {
         let about = &law.about;
-        let good = bench.good(law, instance, 4)?;
+        let case = bench.good(law, instance, 4)?;
         let known = bench.known_constants(law);
         let mut sampler = bench.sampler(law, &known);
-        let mut calls = vec![Call::new(about, &good, &Layout::plain(about))];
+        let mut calls = vec![Call::new(about, &case, &Layout::plain(about))];
         // One that is refused, if there is any: a text that is made for it is a way to lose memory.
         let refused = odd_cases(&mut sampler, about, 0).into_iter().find_map(|case| {
             let mut call = Call::new(about, &case, &Layout { text: Some(128), ..Layout::plain(about) });
             let status = call.evaluate(instance);
-            (!super::super::harness::call::good(status)).then_some((case, call))
+            (!good(status)).then_some((case, call))
         });
         // And a batch of that: some take room for their points, and give it back at the end only.
-        let batch = refused.as_ref().map(|(case, _)| {
+        let mut batch = refused.as_ref().map(|(case, _)| {
             let layout = Layout { text: Some(128), ..Layout::everything(about) };
             Call::new(about, &case.repeated(REFUSED), &layout)
         });
         calls.extend(refused.map(|(_, call)| call));
         bench.label("many calls");
-        let mut batch = batch;
         let made = measured(bench, WARM, CALLS, "calls", |at| {
             match batch.as_mut().filter(|_| at % SELDOM == 0) {
                 Some(batch) => batch.repeat(instance),
@@ -172,10 +171,10 @@ fn evaluate(call: &mut Call, instance: &Instance<'_>, at: usize) {
 
 /// Creates that are refused must give back what they took until then.
 fn refusals(bench: &Bench, law: &Law<'_>) -> Judged<()> {
-    if law.create(Some(c"no such option")).is_ok() {
+    if law.create(Some(NO_OPTION)).is_ok() {
         return Ok(());
     }
-    measured(bench, WARM_INSTANCES, INSTANCES, "refused creates", |_| drop(law.create(Some(c"no such option"))))?;
+    measured(bench, WARM_INSTANCES, INSTANCES, "refused creates", |_| drop(law.create(Some(NO_OPTION))))?;
     Ok(())
 }
 

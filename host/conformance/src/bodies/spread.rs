@@ -10,13 +10,11 @@ use super::super::outcome::Finding;
 use super::batch::{Known, over_and_over, over_ways};
 use super::bench::{Bench, Differences, POINTS, ask, not_finite, still_good};
 use super::extremes::is_unit_vector;
+use super::memory::FILLINGS;
 use wearlaw_law::{Field, Fields};
 
 /// Points that fill two blocks and begin a third, whatever the size of the blocks a law works in (1024 at most).
 const BLOCKS: usize = 2051;
-
-/// What outputs hold before a call: no answer.
-const UNLIKELY: u64 = 0x7ff4_dead_beef_5a5a;
 
 /// Points that share the values of some fields, given once or at every point.
 fn shared(case: &Case, fields: Fields) -> Case {
@@ -158,7 +156,7 @@ pub(super) fn mixed(bench: &Bench) -> Judged {
                 let plain = Layout { constants, ..plain };
                 let state = Spread::Strided(1 + turn / 3 % 3);
                 let (mixed, skews) = (Some(random.bits()), random.bits());
-                let other = Layout { state, mixed, skews, filling: UNLIKELY, ..plain };
+                let other = Layout { state, mixed, skews, filling: FILLINGS[0], ..plain };
                 let what = "columns given once, side by side and with gaps in the same call";
                 both(law, instance, (&case, several(turn)), (&plain, &other), what, &mut differences)?;
             }

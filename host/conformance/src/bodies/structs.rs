@@ -12,7 +12,7 @@ use super::super::harness::subject::{Instance, Law, Library};
 use super::super::message::{Judged, Verdict, broken};
 use super::super::outcome::Finding;
 use super::bench::{Bench, POINTS, ask, still_good};
-use super::faults::odd_cases;
+use super::faults::{NO_OPTION, odd_cases};
 use wearlaw_law::table::{preset_quantity, preset_table, this_host};
 
 /// Bytes of the structs of version 1.0, which no later host makes shorter.
@@ -209,7 +209,7 @@ pub(super) fn text(bench: &Bench) -> Judged {
     let law = library.law(&bench.task)?;
     let mut texts = 0;
     for size in TEXTS {
-        for options in [Some(c"no such option"), None, Some(c"no-such-file.csv")] {
+        for options in [Some(NO_OPTION), None, Some(c"no-such-file.csv")] {
             bench.label(&format!("create, with a buffer of {size} bytes for its text"));
             texts += usize::from(created_text(&law, options, size)?);
         }

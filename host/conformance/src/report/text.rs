@@ -118,18 +118,18 @@ fn evidence(result: &CheckResult, finding: &Finding, law: &str, seed: u64) -> St
 
 /// A line as a terminal can show it: a law may have printed anything, or have names of anything.
 fn readable(line: &str) -> String {
-    let mut shown: String = line.chars().take(MOST).flat_map(escaped).collect();
+    let mut shown = String::new();
+    for character in line.chars().take(MOST) {
+        if character.is_control() && character != '\t' {
+            shown.extend(character.escape_default());
+        } else {
+            shown.push(character);
+        }
+    }
     if line.chars().nth(MOST).is_some() {
         shown.push_str(" ..");
     }
     shown
-}
-
-/// A character, or what stands for one that would steer the terminal.
-fn escaped(c: char) -> impl Iterator<Item = char> {
-    let steers = c.is_control() && c != '\t';
-    let plain = (!steers).then_some(c);
-    plain.into_iter().chain(steers.then(|| c.escape_default()).into_iter().flatten())
 }
 
 /// Inputs as `name value`, as many on a line as fit.

@@ -183,7 +183,7 @@ impl Convolution {
                     bench.row.fill(0.0);
                     if rows.read(row, &mut bench.row[..nx]) {
                         if mirrored {
-                            mirror(&mut bench.row, nx, 1);
+                            mirror(&mut bench.row, nx);
                         }
                         real.forward(&bench.row, &mut spectrum[..bins], &mut bench.scratch);
                         if mirrored {
@@ -271,12 +271,10 @@ fn stored(bins: usize, mirrored: bool) -> usize {
     if mirrored { bins.div_ceil(2) } else { bins }
 }
 
-/// Writes the images of the numbers 1 .. `count` of a period, of which every one is `width` values long.
-fn mirror<T: Copy>(values: &mut [T], count: usize, width: usize) {
-    let period = values.len() / width;
-    for at in 1..count {
-        values.copy_within(at * width..(at + 1) * width, (period - at) * width);
-    }
+/// Writes the images of the numbers 1 .. `count` of a period.
+fn mirror<T: Copy>(values: &mut [T], count: usize) {
+    let period = values.len();
+    (1..count).for_each(|at| values[period - at] = values[at]);
 }
 
 /// Real bins, two in a number, the rest being zero.
@@ -338,11 +336,11 @@ impl Columns<'_> {
         for (at, column) in (first..first + wide).zip(bench.columns.chunks_exact_mut(pitch)) {
             let column = &mut column[..length];
             if self.mirrored[1] {
-                mirror(column, rows, 1);
+                mirror(column, rows);
             }
             self.forward.process_with_scratch(column, &mut bench.scratch[..self.forward.get_inplace_scratch_len()]);
             match (packed, self.mirrored[1]) {
-                (false, _) => multiply(column, bin(at)),
+                (false, _) => multiply_each(column, bin(at), bin(at)),
                 (true, true) => multiply_each(column, bin(2 * at), bin(2 * at + 1)),
                 (true, false) => multiply_both(column, bin(2 * at), bin(2 * at + 1)),
             }
@@ -356,14 +354,7 @@ impl Columns<'_> {
     }
 }
 
-/// Times an even symbol.
-fn multiply(column: &mut [Complex<f64>], symbol: &[f64]) {
-    let (low, high) = column.split_at_mut(symbol.len());
-    low.iter_mut().zip(symbol).for_each(|(value, symbol)| *value *= symbol);
-    high.iter_mut().rev().zip(&symbol[1..]).for_each(|(value, symbol)| *value *= symbol);
-}
-
-/// Times an even symbol for each part; both parts are real transforms, those of even real columns.
+/// Times an even symbol for each part: the same, or those of two even real columns, whose transforms are real.
 fn multiply_each(column: &mut [Complex<f64>], re: &[f64], im: &[f64]) {
     let (low, high) = column.split_at_mut(re.len());
     let each = |(value, (re, im)): (&mut Complex<f64>, (&f64, &f64))| *value = scaled(*value, *re, *im);

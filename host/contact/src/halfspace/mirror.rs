@@ -89,8 +89,10 @@ impl Half {
     }
 }
 
-/// Along which axes a gap on enough cells is its own mirror image, to the bit.
-pub fn of_gap(cells: &Cells, boundary: Boundary, gap: &[f64]) -> [bool; 2] {
+/// Along which axes a gap `[cells]` is its own mirror image about the centre of cell n/2, to the bit, so that contact on it is
+/// solved on one side of that cell alone, with it.
+#[must_use]
+pub fn mirrors(cells: &Cells, boundary: Boundary, gap: &[f64]) -> [bool; 2] {
     [0, 1].map(|axis| {
         let count = cells.counts[axis];
         let fits = boundary == Boundary::Free || count.is_multiple_of(2);
@@ -104,7 +106,7 @@ pub fn of(model: &HalfSpace, problem: &Problem<'_>, pressure: &[f64]) -> [bool; 
     if problem.frozen.is_some() || problem.smoothed && problem.diagonal != Diagonal::Zero {
         return [false; 2];
     }
-    let mut mirrored = of_gap(&model.cells, boundary, problem.gap);
+    let mut mirrored = mirrors(&model.cells, boundary, problem.gap);
     for (axis, mirrored) in mirrored.iter_mut().enumerate().filter(|(_, mirrored)| **mirrored) {
         *mirrored = is_mirrored(full, axis, pressure);
         if let Diagonal::PerPoint(values) = problem.diagonal {

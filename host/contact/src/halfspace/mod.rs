@@ -30,6 +30,7 @@ mod window;
 use super::{Cells, ContactError, ContactModel, Instructions, Problem, Solution};
 use convolve::{Convolution, Dense};
 use kernel::{Kernel, Sizes};
+pub use mirror::mirrors;
 use room::Room;
 use scaled::power_of_two;
 
@@ -92,13 +93,6 @@ impl HalfSpace {
     pub fn with_instructions(mut self, set: Instructions) -> HalfSpace {
         self.kernel.instructions = set;
         self
-    }
-
-    /// Along which axes a gap `[cells]` is its own mirror image about the centre of cell n/2, to the bit, so that contact on
-    /// it is solved on one side of that cell alone, with it.
-    #[must_use]
-    pub fn mirrors(&self, gap: &[f64]) -> [bool; 2] {
-        mirror::of_gap(&self.cells, self.kernel.boundary, gap)
     }
 
     /// The same without use of mirror symmetry: every problem is solved on all cells.

@@ -88,15 +88,24 @@ impl Window {
         if !self.half.is_part() {
             return Vec::new();
         }
-        let mut weights = room.take(self.sizes.0[0] * self.sizes.0[1]);
-        weights.iter_mut().enumerate().for_each(|(place, weight)| *weight = self.half.weight(self.at(place)));
+        let [nx, ny] = self.sizes.0;
+        let mut weights = room.take(nx * ny);
+        for (y, row) in weights.chunks_exact_mut(nx).enumerate() {
+            row.iter_mut().enumerate().for_each(|(x, weight)| *weight = self.weight([x, y]));
+        }
         weights
+    }
+
+    /// How many cells of the surface have the value of the cell in this column and row of the window.
+    fn weight(&self, at: [usize; 2]) -> f64 {
+        self.half.weight([0, 1].map(|axis| self.origin[axis] + at[axis]))
     }
 
     /// Sum of values over the cells of the surface.
     pub fn sum(&self, threads: usize, values: &[f64]) -> f64 {
         if self.half.is_part() {
-            sum(threads, values.len(), |place| self.half.weight(self.at(place)) * values[place])
+            let nx = self.sizes.0[0];
+            sum(threads, values.len(), |place| self.weight([place % nx, place / nx]) * values[place])
         } else {
             sum(threads, values.len(), |place| values[place])
         }

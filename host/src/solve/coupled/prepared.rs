@@ -4,7 +4,7 @@ use super::run::{Coupled, SHARED};
 use super::segment::Segment;
 use super::system::{Room, Substep, System, Work};
 use crate::contact::foundation::Foundation;
-use crate::contact::halfspace::{Boundary, HalfSpace};
+use crate::contact::halfspace::{Boundary, HalfSpace, mirrors};
 use crate::contact::surface::std_of_gap;
 use crate::contact::{Cells, ContactModel, Solution};
 use crate::integrator::{Formula, Stages};
@@ -32,9 +32,8 @@ impl<'p> Coupled<'p> {
     /// What the run leaves out, and why.
     pub(in crate::solve) fn skipped(&self) -> Vec<Skipped> {
         let mut skipped = self.plan.skipped.clone();
-        let Elastic::HalfSpace { modulus, periodic, datum } = self.solved.elastic else { return skipped };
-        let model = half_space(self.solved.cells, (modulus, periodic, datum), 1);
-        let (part, axes) = match model.mirrors(&self.gap) {
+        let Elastic::HalfSpace { periodic, .. } = self.solved.elastic else { return skipped };
+        let (part, axes) = match mirrors(&self.solved.cells, boundary(periodic), &self.gap) {
             _ if self.plan.material.basis == Basis::NodalStress => return skipped,
             [true, true] => ("three quarters of the contact", "x and y"),
             [true, false] => ("half of the contact", "x"),
@@ -159,6 +158,9 @@ impl<'p> Coupled<'p> {
 
 /// The elastic half-space under a grid, of a contact modulus, a boundary and a datum.
 fn half_space(cells: Cells, (modulus, periodic, datum): (f64, bool, Option<f64>), threads: usize) -> HalfSpace {
-    let boundary = if periodic { Boundary::Periodic } else { Boundary::Free };
-    HalfSpace::new(cells, modulus, boundary, datum, threads)
+    HalfSpace::new(cells, modulus, boundary(periodic), datum, threads)
+}
+
+fn boundary(periodic: bool) -> Boundary {
+    if periodic { Boundary::Periodic } else { Boundary::Free }
 }
