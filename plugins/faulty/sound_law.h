@@ -49,6 +49,9 @@
 #ifndef LAW_H_UNIT
 #define LAW_H_UNIT -1, 1, -2, 0
 #endif
+#ifndef LAW_WORK_UNIT
+#define LAW_WORK_UNIT 0, 1, -2, 0
+#endif
 #ifndef LAW_H_MINIMUM
 #define LAW_H_MINIMUM 0
 #endif
@@ -210,7 +213,7 @@ static int32_t sound_describe(int32_t kind, int64_t index, wl_quantity *quantity
          LAW_H_FLAGS}};
     static const wl_quantity states[] = {
         {0, "distance", "sliding distance so far", 1, 0, 0, 0, 0, INFINITY, 0, 0},
-        {0, "work", "pressure times sliding distance so far", 0, 1, -2, 0, 0, INFINITY, 0, 0}};
+        {0, "work", "pressure times sliding distance so far", LAW_WORK_UNIT, 0, INFINITY, 0, 0}};
     wl_quantity one;
     index = LAST_CONSTANT(kind, index);
     if (index < 0 || index > 1 || (kind != WL_KIND_CONSTANT && kind != WL_KIND_STATE)) {

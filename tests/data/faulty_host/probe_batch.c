@@ -157,6 +157,23 @@ static void mixed(law_handle *h, void *instance) {
     }
 }
 
+/* One field after the other begins eight bytes behind a multiple of sixteen, the others do not. */
+static void moved(law_handle *h, void *instance) {
+    for (int one = 0; one < FIELDS; ++one) {
+        job *plain = make_job(h, POINTS, 1), *other = malloc(sizeof *other);
+        *other = *plain;
+        for (int f = 0; f < FIELDS; ++f) {
+            if (plain->field[f]) {
+                size_t size = sizeof(double) * (size_t)(width_of(f) * POINTS);
+                other->field[f] = (double *)aligned_alloc(64, (size + 8 + 63) / 64 * 64) + (f == one);
+                memcpy(other->field[f], plain->field[f], size);
+            }
+        }
+        compare_part(h, evaluate(h, instance, plain, all_outputs(h)), NULL,
+                     evaluate(h, instance, other, all_outputs(h)), POINTS, "one field moved by eight bytes");
+    }
+}
+
 static void statuses(law_handle *h, void *instance) {
     job *j = make_job(h, POINTS, 1);
     int64_t without = all_outputs(h) & ~WL_OUT_STATUS;
@@ -207,6 +224,7 @@ int probe_batch(const char *name, const char *path) {
         for (int64_t points = 2; points < 68; ++points) {
             singles(h, instance, points);
         }
+        singles(h, instance, 4097);
     } else if (is("batch/shuffled")) {
         shuffled(h, instance);
     } else if (is("batch/ranges")) {
@@ -225,6 +243,7 @@ int probe_batch(const char *name, const char *path) {
         columns(h, instance, 3, 0);
     } else if (is("batch/mixed")) {
         mixed(h, instance);
+        moved(h, instance);
     } else if (is("batch/status-array")) {
         statuses(h, instance);
         overflow(h, instance);

@@ -72,9 +72,14 @@ static void refusal(law_handle *h) {
     if (!h->law.create) {
         return;
     }
+    make_instance(h);
     status = h->law.create(&h->host, "no law has = this option", &instance, text, sizeof text);
     if (status != WL_OK && !text[0]) {
         bad("create answers %d to strange options and says nothing", (int)status);
+    }
+    status = h->law.create(&h->host, NULL, &instance, text, sizeof text);
+    if (status != WL_OK) {
+        bad("create makes an instance, and answers %d to the same call once it refused another", (int)status);
     }
 }
 

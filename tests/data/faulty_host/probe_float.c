@@ -77,8 +77,14 @@ int probe_float(const char *name, const char *path) {
         pthread_create(&thread, NULL, in_a_thread, h);
         pthread_join(thread, NULL);
     } else if (has(name, "float/create")) {
+        void *instance = NULL;
+        char text[200] = "";
         make_instance(h);
         compare(first, "after create");
+        if (h->law.create) {
+            h->law.create(&h->host, "no law has = this option", &instance, text, sizeof text);
+            compare(first, "after a create that was refused");
+        }
     } else if (has(name, "float/evaluate")) {
         void *instance = make_instance(h);
         job *j = make_job(h, 10, 1);

@@ -28,8 +28,9 @@ static void *guarded(const void *from, size_t size, int behind, int constant) {
     return at;
 }
 
-/* Evaluates with every array so placed; the worst status does not matter here, a crash does. */
-static void evaluate_guarded(law_handle *h, int behind, int inputs_constant, int state_constant, int64_t points) {
+/* Evaluates with every array so placed, fields maybe given once; the worst status does not matter here, a crash does. */
+static void evaluate_guarded(law_handle *h, int behind, int inputs_constant, int state_constant, int64_t points,
+                             int once) {
     wl_column columns[MOST_QUANTITIES];
     wl_view view;
     job *j = make_job(h, points, 1);
@@ -38,7 +39,8 @@ static void evaluate_guarded(law_handle *h, int behind, int inputs_constant, int
     for (int f = 0; f < FIELDS; ++f) {
         if (j->field[f]) {
             j->field[f][0] = f == 0 ? -1e6 : j->field[f][0]; /* something to be clamped */
-            j->field[f] = guarded(j->field[f], real * n * (size_t)width_of(f), behind, inputs_constant);
+            j->field[f] = guarded(j->field[f], real * (once ? 1 : n) * (size_t)width_of(f), behind, inputs_constant);
+            j->step[f] = once ? 0 : j->step[f];
         }
     }
     for (int64_t k = 0; k < h->constants; ++k) {
@@ -118,12 +120,13 @@ static int files(void) {
 }
 
 static void leaks_of_calls(law_handle *h) {
-    enum { CALLS = 20000 };
-    for (int refused = 0; refused < 2; ++refused) {
+    enum { CALLS = 20000, LARGE = 2000 };
+    for (int way = 0; way < 3; ++way) { /* answered, refused, and refused with many points */
         wl_column columns[MOST_QUANTITIES];
         wl_view view;
-        job *j = make_job(h, 4, 1);
-        reply *r = make_reply(h, 4, 0);
+        int refused = way > 0, points = way == 2 ? LARGE : 4, calls = way == 2 ? CALLS / 40 : CALLS;
+        job *j = make_job(h, points, 1);
+        reply *r = make_reply(h, points, 0);
         wl_output o = {sizeof o, r->increment};
         void *instance = make_instance(h);
         for (int f = 0; f < FIELDS && refused; ++f) {
@@ -135,11 +138,11 @@ static void leaks_of_calls(law_handle *h) {
         o.state = h->states ? r->state : NULL;
         h->law.evaluate(instance, &view, &o);
         size_t before = in_use();
-        for (int call = 0; call < CALLS; ++call) {
+        for (int call = 0; call < calls; ++call) {
             h->law.evaluate(instance, &view, &o);
         }
         if (in_use() > before + CALLS) {
-            bad("%d calls hold %zu bytes more", CALLS, in_use() - before);
+            bad("%d calls of %d points hold %zu bytes more", calls, points, in_use() - before);
         }
     }
 }
@@ -165,12 +168,13 @@ int probe_memory(const char *name, const char *path) {
     law_handle *h = open_law(path);
     if (is("memory/after") || is("memory/before")) {
         for (int64_t points = 1; points < 70; ++points) {
-            evaluate_guarded(h, is("memory/after"), 0, 0, points);
+            evaluate_guarded(h, is("memory/after"), 0, 0, points, 0);
+            evaluate_guarded(h, is("memory/after"), 0, 0, points, 1);
         }
     } else if (is("memory/inputs")) {
-        evaluate_guarded(h, 1, 1, 0, POINTS);
+        evaluate_guarded(h, 1, 1, 0, POINTS, 0);
     } else if (is("state/start")) {
-        evaluate_guarded(h, 1, 0, 1, POINTS);
+        evaluate_guarded(h, 1, 0, 1, POINTS, 0);
     } else if (is("memory/unwritten") || is("state/end")) {
         look_for_unwritten(h, is("state/end"));
     } else if (is("memory/undeclared")) {

@@ -42,6 +42,12 @@ static void celsius(law_handle *h) {
     }
 }
 
+static void same(double expected, double found, const char *what) {
+    if (fabs(found - expected) > 1e-9 * fabs(expected)) {
+        bad("in other units the %s is %g times what it should be", what, found / expected);
+    }
+}
+
 int probe_units(const char *name, const char *path) {
     static const double millimetres[4] = {1e-3, 1e3, 10, 2};
     int scale = strcmp(name, "physics/temperature-scale") == 0;
@@ -78,9 +84,13 @@ int probe_units(const char *name, const char *path) {
     reply *r = evaluate(h, make_instance(h), si, all_outputs(h));
     reply *s = evaluate(h, make_instance(h), other, all_outputs(h));
     for (int64_t i = 0; i < POINTS; ++i) {
-        double expected = r->increment[i] * factor((double[]){1, 0, 0, 0}, millimetres);
-        if (fabs(s->increment[i] - expected) > 1e-9 * fabs(expected)) {
-            bad("in other units the wear is %g times what it should be", s->increment[i] / expected);
+        same(r->increment[i] * factor((double[]){1, 0, 0, 0}, millimetres), s->increment[i], "wear");
+        for (int64_t k = 0; k < h->states && (r->want & WL_OUT_STATE); ++k) {
+            double by = factor_of(h, WL_KIND_STATE, k, millimetres);
+            same(r->state[h->states * i + k] * by, s->state[h->states * i + k], "state");
+        }
+        if ((r->want & WL_OUT_D_PRESSURE) && isfinite(r->slope[i])) {
+            same(r->slope[i] * factor((double[]){2, -1, 2, 0}, millimetres), s->slope[i], "derivative");
         }
     }
     return 1;
