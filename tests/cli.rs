@@ -194,6 +194,25 @@ fn an_interrupted_build_ends_with_130_and_leaves_nothing() {
 }
 
 #[test]
+fn what_hangs_or_ends_the_process_when_it_is_loaded_ends_neither_build_nor_inspect() {
+    let here = folder();
+    let at_load = |name: &str, fault: &str| {
+        let loaded = format!("__attribute__((constructor)) static void open_up(void) {{ {fault} }}\n");
+        write(here.path(), &format!("{name}.c"), &format!("#include <unistd.h>\n{loaded}{LAW}"));
+    };
+    at_load("ends", "_exit(0);");
+    for words in [["build", "ends.c"], ["inspect", "libends.so"]] {
+        let message = fails(here.path(), &words, 3, "law");
+        assert!(message.contains("ended its worker process with exit code 0 while it was opened"), "{message}");
+    }
+    // It has some seconds, so once is enough.
+    at_load("hangs", "for (;;) {}");
+    let ended = run(here.path(), &["build", "hangs.c"]);
+    assert_eq!(ended.code, 3, "{}", ended.stderr);
+    assert!(ended.stderr.contains("libhangs.so` did not answer within 10 s"), "{}", ended.stderr);
+}
+
+#[test]
 fn what_a_law_prints_never_reaches_the_document_of_json() {
     let here = folder();
     let talks = "#include <stdio.h>\n#include <unistd.h>\n#include <stdlib.h>\n\

@@ -6,11 +6,11 @@ use super::args::BuildArguments;
 use super::console::Console;
 use super::inspect::{plugin_json, plugin_text};
 use super::interrupt::Interrupt;
+use super::opening::opened_library;
 use super::unit_text::elapsed;
 use crate::error::Error;
 use crate::exit_code::ExitCode;
 use crate::law::build::{BuildError, BuildRequest, Built, build};
-use crate::law::{LoadOptions, Plugin};
 
 pub(super) fn command(console: &Console, arguments: &BuildArguments) -> Result<ExitCode, Error> {
     let interrupt = Interrupt::watch();
@@ -20,7 +20,7 @@ pub(super) fn command(console: &Console, arguments: &BuildArguments) -> Result<E
         ..BuildRequest::default()
     };
     let built = interrupt.over(compiled(console, &request))?;
-    let plugin = Plugin::open(&built.library, &LoadOptions::default())?;
+    let plugin = opened_library(&built.library)?;
     if console.json {
         let mut document = plugin_json(&plugin, None)?;
         document["library"] = built.library.display().to_string().into();

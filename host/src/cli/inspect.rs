@@ -7,11 +7,12 @@ use serde_json::json;
 use super::args::InspectArguments;
 use super::console::Console;
 use super::description::{file_json, file_text, law_text};
+use super::opening::opened_library;
 use crate::error::{Error, UsageError};
 use crate::exit_code::ExitCode;
 use crate::law::file_facts::FileFacts;
 use crate::law::lookup::{self, LawSource, LookupError};
-use crate::law::{LoadOptions, Plugin, embedded};
+use crate::law::{Plugin, embedded};
 use crate::scene::Located;
 
 pub(super) fn command(console: &Console, arguments: &InspectArguments) -> Result<ExitCode, Error> {
@@ -39,7 +40,7 @@ pub(super) fn command(console: &Console, arguments: &InspectArguments) -> Result
             Ok(ExitCode::Done)
         }
         LawSource::Library(path) | LawSource::Source(path) => {
-            let plugin = Plugin::open(path, &LoadOptions::default())?;
+            let plugin = opened_library(&path)?;
             show(console, &plugin, wanted)
         }
         LawSource::Embedded(law) => {

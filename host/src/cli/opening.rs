@@ -1,6 +1,7 @@
 //! From the name of a law in a scene, or on the command line, to a law that can be called.
 
 use std::path::Path;
+use std::time::Duration;
 
 use tempfile::TempDir;
 
@@ -13,7 +14,7 @@ use crate::conformance::Expected;
 use crate::error::{Error, UsageError};
 use crate::law::build::BuildRequest;
 use crate::law::file_facts::FileFacts;
-use crate::law::isolate::{DEADLINE, IsolateOptions, IsolatedLaw, Source};
+use crate::law::isolate::{DEADLINE, IsolateError, IsolateOptions, IsolatedLaw, Source};
 use crate::law::lookup::{self, LawSource, LookupError};
 use crate::law::{Evaluator, LoadError, LoadOptions, Plugin};
 use crate::scene::{Located, Scene};
@@ -102,6 +103,21 @@ fn several(error: LoadError, origin: &str) -> Error {
     match error {
         LoadError::Ambiguous { known, .. } => UsageError::SeveralLaws { origin: origin.to_owned(), known }.into(),
         other => other.into(),
+    }
+}
+
+/// Longest time in which a library that is to be described has to open.
+const DESCRIBED_WITHIN: Duration = Duration::from_secs(10);
+
+/// Opens a library that is to be described, first in a process of its own: what hangs or ends its process while it is opened
+/// does so there.
+pub(super) fn opened_library(path: &Path) -> Result<Plugin, Error> {
+    let deadline = DESCRIBED_WITHIN;
+    let wanted = IsolateOptions { deadline, ..IsolateOptions::new(Source::File(path.to_owned())) };
+    match IsolatedLaw::open(&wanted) {
+        Err(lost @ IsolateError::Lost { .. }) => Err(lost.into()),
+        // Which of several laws, or options that it needs, is no question here, and the rest is said again.
+        _ => Ok(Plugin::open(path, &LoadOptions::default())?),
     }
 }
 
