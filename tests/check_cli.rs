@@ -71,6 +71,39 @@ fn the_list_has_every_check_and_needs_no_law() {
     assert_eq!(document.as_array().map(Vec::len), Some(Check::ALL.len()));
 }
 
+#[test]
+fn a_law_that_starts_with_options_only_is_warned_of_without_them() {
+    let here = folder();
+    let create = "static int32_t started(const wl_host *host, const char *options, void **instance, char *text, int64_t size) {\n\
+        (void)host;\n    *instance = NULL;\n\
+        if (options && strcmp(options, \"table=steel\") == 0) return WL_OK;\n\
+        if (text && size > 0) snprintf(text, (size_t)size, \"which table?\");\n    return WL_FAILED;\n}\n\
+        WL_EXPORT int32_t wearlaw_entry_1(int32_t index, const wl_host *host, wl_law *law) {\n\
+        int32_t status = index == 0 ? filled(law) : WL_NO_MORE;\n    (void)host;\n\
+        if (status == WL_OK) law->create = started;\n    return status;\n}\n";
+    let law = LAW.replace("FAULT", "").replace("#include", "#define LAW_FILL filled\n#include");
+    write(here.path(), "optional.c", &format!("{law}{create}"));
+    let built = run(here.path(), &["build", "optional.c", "-o", "optional.so"]);
+    assert_eq!(built.code, 0, "{}", built.stderr);
+    let check = |more: &[&str]| {
+        let words =
+            [&["check", "optional.so", "--only", "faults/create", "--only", "batch/singles", "--json"], more].concat();
+        let ended = run(here.path(), &words);
+        (ended.code, json(&ended.stdout))
+    };
+    let (code, document) = check(&[]);
+    assert_eq!((code, of(&document, "faults/create")["outcome"].as_str()), (0, Some("warn")), "{document:#}");
+    assert!(
+        document.to_string().contains("which table?") && document.to_string().contains("--options"),
+        "{document:#}"
+    );
+    assert_eq!(of(&document, "batch/singles")["outcome"], "skipped");
+    let (code, document) = check(&["--options", "table=steel"]);
+    assert_eq!((code, outcomes(&document, "pass").len()), (0, 2), "{document:#}");
+    let (code, document) = check(&["--options", "table=wood"]);
+    assert_eq!((code, of(&document, "batch/singles")["outcome"].as_str()), (1, Some("fail")), "{document:#}");
+}
+
 /// Running-in over work with the state of the start of the substep, or over the substep: `RUN_IN` is the one or the other.
 const RUNNING_IN: &str = r#"
 #define LAW_NAME "running-in"

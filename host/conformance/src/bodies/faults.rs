@@ -201,5 +201,10 @@ pub(super) fn create(bench: &Bench) -> Judged {
         let finding = Finding::new("create refuses the usual options once others were refused");
         return broken(finding.with(format!("status {status}, text {text:?}"), "an instance, as before"));
     }
+    if let (Err((status, text)), None) = (usual, &words) {
+        let finding = Finding::new("create refuses to start without options, so most checks test nothing");
+        let wanted = "an instance; give the options that it needs with --options";
+        return Ok(Verdict::Warn(finding.with(format!("status {status}, text {text:?}"), wanted)));
+    }
     Ok(Verdict::Pass(Some(format!("{refused} of 6 options refused, each with a text"))))
 }
