@@ -25,6 +25,8 @@ fn help_and_version_go_to_standard_output() {
         "sweep",
         "check",
         "bench",
+        "completions",
+        "man",
         "Exit codes",
         "130",
     ] {
@@ -38,6 +40,35 @@ fn help_and_version_go_to_standard_output() {
     let bare = run(here.path(), &[]);
     assert_eq!((bare.code, bare.stdout.as_str()), (2, ""));
     assert!(bare.stderr.contains("Usage: wearlaw"));
+}
+
+#[test]
+fn completions_are_what_the_shell_reads_and_pages_what_man_does() {
+    let here = folder();
+    let script = run(here.path(), &["completions", "bash"]);
+    assert_eq!((script.code, script.stderr.as_str()), (0, ""));
+    write(here.path(), "wearlaw.bash", &script.stdout);
+    let asks = "set -e; . ./wearlaw.bash; COMP_WORDS=(wearlaw st); COMP_CWORD=1; _wearlaw wearlaw st wearlaw; \
+                echo ${COMPREPLY[@]}; COMP_WORDS=(wearlaw run --iso); COMP_CWORD=2; _wearlaw wearlaw --iso run; \
+                echo ${COMPREPLY[@]}; complete -p wearlaw";
+    let bash = std::process::Command::new("bash").current_dir(here.path()).args(["-c", asks]).output();
+    let bash = ended(bash.expect("bash starts"), &["bash"]);
+    assert_eq!(bash.code, 0, "{}", bash.stderr);
+    let lines: Vec<&str> = bash.stdout.lines().collect();
+    assert_eq!(lines[..2], ["stability study", "--isolate"]);
+    assert!(lines[2].ends_with(" wearlaw"), "{}", lines[2]);
+    for shell in ["zsh", "fish"] {
+        assert!(run(here.path(), &["completions", shell]).stdout.contains("stability"), "{shell}");
+    }
+    fails(here.path(), &["completions", "csh"], 2, "input");
+
+    let page = |words: &[&str]| run(here.path(), words).stdout;
+    let (whole, of_run) = (page(&["man"]), page(&["man", "run"]));
+    assert!(whole.contains(".TH wearlaw 1") && whole.contains("wearlaw\\-stability(1)"), "{whole}");
+    assert!(of_run.contains(".TH wearlaw-run 1") && of_run.contains("\\-\\-isolate"), "{of_run}");
+    assert_eq!(json(&page(&["man", "run", "--json"]))["page"], of_run.as_str());
+    let message = fails(here.path(), &["man", "walk"], 2, "input");
+    assert!(message.contains("`walk`") && message.contains("stability, study"), "{message}");
 }
 
 #[test]

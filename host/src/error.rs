@@ -141,6 +141,14 @@ pub enum UsageError {
         /// The languages.
         known: Vec<String>,
     },
+    /// The manual page of a command that there is not.
+    #[error("there is no command `{name}`, expected one of {}", known.join(", "))]
+    NoCommand {
+        /// What was asked for.
+        name: String,
+        /// The commands.
+        known: Vec<String>,
+    },
     /// `--static` for a law that is no file.
     #[error("`{law}` is part of this program, so there is no file for --static to read")]
     NoFile {

@@ -77,6 +77,11 @@ pub(super) enum Command {
     Bench(BenchArguments),
     /// Turn the TB,WEAR commands of an input deck into the law section of a scene
     Apdl(ApdlArguments),
+    /// Print the completions of a shell
+    #[command(after_long_help = COMPLETING)]
+    Completions(CompletionsArguments),
+    /// Print the manual page of the program or of a command, for `man -l -`
+    Man(ManArguments),
 }
 
 /// What `run` and `plan` share.
@@ -316,6 +321,19 @@ fn seconds(text: &str) -> Result<Duration, String> {
     Duration::try_from_secs_f64(number).ok().filter(|duration| !duration.is_zero()).ok_or_else(wrong)
 }
 
+#[derive(Debug, Clone, Args)]
+pub(super) struct CompletionsArguments {
+    /// The shell
+    #[arg(value_enum)]
+    pub(super) shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct ManArguments {
+    /// The command [default: the program as a whole]
+    pub(super) command: Option<String>,
+}
+
 const FIRST_STEPS: &str = "\
 First steps:
   wearlaw new my-law --lang c     a wear law of your own, with the three commands to type next
@@ -334,6 +352,12 @@ Outcomes:
 
 What fails leaves a file in NAME.check/, which --replay runs again. Ends with 0 if every check passes, 1 if one does not,
 2 if the file is no law or no check was run, 70 for a fault of the checker.";
+
+const COMPLETING: &str = "\
+Where the completions go:
+  bash   wearlaw completions bash > ~/.local/share/bash-completion/completions/wearlaw
+  zsh    wearlaw completions zsh > a folder of $fpath, as _wearlaw
+  fish   wearlaw completions fish > ~/.config/fish/completions/wearlaw.fish";
 
 const MEASURING: &str = "\
 How it measures:

@@ -17,6 +17,7 @@ mod interrupt;
 mod machine;
 mod new;
 mod opening;
+mod pages;
 mod plan;
 mod progress;
 mod restart;
@@ -92,5 +93,7 @@ fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
         Command::Check(arguments) => check::command(console, &arguments),
         Command::Bench(arguments) => bench::command(console, &arguments),
         Command::Apdl(arguments) => apdl::command(console, &arguments),
+        Command::Completions(arguments) => pages::completions(console, &arguments),
+        Command::Man(arguments) => pages::man(console, &arguments),
     }
 }
