@@ -192,8 +192,9 @@ fn table_csv_and_json_say_the_same() {
     let here = folder();
     write(here.path(), "scene.toml", LINE);
     let words = ["study", "scene.toml", "--budget", "20s", "--out", "out", "--substeps", "4,8", "--tolerances", "1e-2"];
-    let plain = run(here.path(), &words);
+    let plain = run(here.path(), &[&words[..], &["--html"]].concat());
     assert_eq!((plain.code, plain.stderr.as_str()), (0, ""));
+    let page = std::fs::read_to_string(here.path().join("out/study.html")).expect("a page");
     let text = std::fs::read_to_string(here.path().join("out/study.json")).expect("a document");
     let document = json(&text);
     let mut table = csv::Reader::from_path(here.path().join("out/study.csv")).expect("a table");
@@ -218,6 +219,7 @@ fn table_csv_and_json_say_the_same() {
         if case["status"] == "done" && case["kind"] == "substeps" {
             let error = format!("{:.1e}", number(&case["errors"]["wear_l2_relative"]));
             assert!(plain.stdout.contains(&error), "{error} is in the table");
+            assert!(page.contains(&format!("{error}</td>")), "{error} is on the page");
         }
         for word in list(case, "overrides") {
             assert!(cell(row, "overrides").contains(word.as_str().expect("an override")));
@@ -226,9 +228,19 @@ fn table_csv_and_json_say_the_same() {
     for line in list(&document, "verdict") {
         let first: Vec<&str> = line.as_str().expect("words").split(' ').take(6).collect();
         assert!(plain.stdout.contains(&first.join(" ")), "{line}");
+        assert!(page.contains(&first.join(" ")), "{line}");
     }
+    assert!(page.contains("<svg") && page.contains("SHA-256 of the law") && !page.contains("keys that were set"));
+    for part in ["<script", "http:", "https:", "src=", "<link", "url("] {
+        assert!(
+            !page.replace("http://www.w3.org/2000/svg", "").contains(part),
+            "{part}: it needs nothing from elsewhere"
+        );
+    }
+    // A page of an earlier study does not stay beside another one.
     let quiet = run(here.path(), &[&words[..], &["-q"]].concat());
     assert_eq!((quiet.code, quiet.stdout.as_str(), quiet.stderr.as_str()), (0, "", ""));
+    assert!(!here.path().join("out/study.html").exists());
 }
 
 fn text_of(value: &Value) -> String {

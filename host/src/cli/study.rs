@@ -6,6 +6,7 @@ use std::time::Instant;
 use super::args::SceneArguments;
 use super::console::Console;
 use super::interrupt::Interrupt;
+use super::machine;
 use super::opening::{self, OpenedLaw};
 use super::progress::Progress;
 use super::run::prepared;
@@ -34,7 +35,8 @@ pub(super) fn command(console: &Console, arguments: StudyArguments) -> Result<Ex
     let mut watcher = Watcher { tell: &mut tell, goes_on: &goes_on };
     let record = study(&arguments.scene, &overrides, laws, &asked, &mut watcher)?;
     drop(progress);
-    write_study(&record, &out)?;
+    let provenance = arguments.html.then(|| provenance(&law, &arguments));
+    write_study(&record, provenance.as_deref(), &out)?;
     if console.json {
         console.document(&record)?;
     } else if !console.quiet {
@@ -45,6 +47,23 @@ pub(super) fn command(console: &Console, arguments: StudyArguments) -> Result<Ex
         return Ok(ExitCode::Interrupted);
     }
     Ok(ExitCode::Done)
+}
+
+/// What a page says of how the study came about.
+fn provenance(law: &OpenedLaw, arguments: &StudyArguments) -> Vec<(String, String)> {
+    let fact = |label: &str, text: String| (label.to_owned(), text);
+    let of_program = || "part of the program".to_owned();
+    let hash = law.facts.as_ref().map_or_else(of_program, |facts| facts.sha256.clone());
+    let mut facts = vec![
+        fact("wearlaw", env!("CARGO_PKG_VERSION").to_owned()),
+        fact("law", law.origin.clone()),
+        fact("SHA-256 of the law", hash),
+    ];
+    if !arguments.shared.overrides.is_empty() {
+        facts.push(fact("keys that were set", arguments.shared.overrides.join(" ; ")));
+    }
+    facts.extend(machine::facts(Some(arguments.threads.into())));
+    facts
 }
 
 /// The law in a process of its own, where the study compares that; `None` where all run there, or it cannot be opened,

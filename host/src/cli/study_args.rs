@@ -19,6 +19,9 @@ pub(super) struct StudyArguments {
     /// Folder for the results [default: the scene's name with .study, here]
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Also write study.html: verdict, picture, all cases and provenance in one file that needs nothing else
+    #[arg(long)]
+    pub(super) html: bool,
     /// Only these parts of the study
     #[arg(long, value_name = "PART", value_enum, value_delimiter = ',')]
     pub(super) only: Vec<StudyPart>,

@@ -1,9 +1,10 @@
-//! A report as one HTML file that needs nothing else: pieces of a page, and the page of a run.
+//! A report as one HTML file that needs nothing else: pieces of a page, and the pages of a run and of a study.
 //!
 //! The file holds its style and its pictures, asks for nothing from a network and runs no script. It reads on a phone, on
 //! paper and in the dark; what stands in it is escaped.
 
 mod run_page;
+mod study_page;
 
 use std::fmt::Write as _;
 use std::io::Write;
@@ -12,6 +13,7 @@ use std::path::Path;
 use super::{OutputError, write_file};
 
 pub use run_page::{RunPage, write_run_page};
+pub(super) use study_page::{StudyPage, write_study_page};
 
 const STYLE: &str = include_str!("html/style.css");
 

@@ -21,7 +21,7 @@ use plotters::prelude::SVGBackend;
 use std::io::Write;
 use std::path::Path;
 
-pub(super) use study::write_study_plot;
+pub(super) use study::{study_svg, write_study_plot};
 
 /// Size of the figure in pixels.
 const SIZE: (u32, u32) = (1000, 700);

@@ -1,5 +1,7 @@
-//! The files of a study: `study.csv`, a row per case; `study.json`, everything; `study.svg`, the picture.
+//! The files of a study: `study.csv`, a row per case; `study.json`, everything; `study.svg`, the picture;
+//! `study.html`, a page of all that.
 
+use super::html::{StudyPage, write_study_page};
 use super::{OutputError, plot, write_file};
 use crate::record::{Case, Kind, Status, StudyRecord};
 use std::fs;
@@ -9,6 +11,7 @@ use std::path::Path;
 /// The mark of a finished study: placed last.
 const DOCUMENT: &str = "study.json";
 const TABLE: &str = "study.csv";
+const PAGE: &str = "study.html";
 /// Name of the picture of a study.
 pub const STUDY_PICTURE: &str = "study.svg";
 
@@ -23,21 +26,32 @@ pub fn check_study_folder(path: &Path) -> Result<(), OutputError> {
     if path.join(DOCUMENT).exists() {
         return Ok(());
     }
-    match [TABLE, STUDY_PICTURE].iter().map(|name| path.join(name)).find(|file| file.exists()) {
+    match [TABLE, STUDY_PICTURE, PAGE].iter().map(|name| path.join(name)).find(|file| file.exists()) {
         Some(path) => Err(OutputError::InTheWay { path }),
         None => Ok(()),
     }
 }
 
-/// Writes the files of a study into the folder `path`, which is made; each appears whole, `study.json` last.
+/// Writes the files of a study into the folder `path`, which is made; each appears whole, `study.json` last. The page is
+/// written if there is a provenance for it (label and text), and one of an earlier study goes if there is none.
 ///
 /// # Errors
 /// As [`check_study_folder`]; `Io` and `Drawing` with the path.
-pub fn write_study(study: &StudyRecord, path: &Path) -> Result<(), OutputError> {
+pub fn write_study(
+    study: &StudyRecord,
+    provenance: Option<&[(String, String)]>,
+    path: &Path,
+) -> Result<(), OutputError> {
     check_study_folder(path)?;
     fs::create_dir_all(path).map_err(OutputError::io("create", path))?;
     write_file(&path.join(TABLE), |to| rows(study, to))?;
     plot::write_study_plot(study, &path.join(STUDY_PICTURE))?;
+    let page = path.join(PAGE);
+    match provenance {
+        Some(provenance) => write_study_page(&StudyPage { study, provenance }, &page)?,
+        None if page.exists() => fs::remove_file(&page).map_err(OutputError::io("remove", &page))?,
+        None => {}
+    }
     write_file(&path.join(DOCUMENT), |to| {
         to.write_all(&serde_json::to_vec_pretty(study).map_err(io::Error::from)?)?;
         writeln!(to)
@@ -55,7 +69,7 @@ fn kind(kind: Kind) -> &'static str {
 }
 
 /// The word of a status, and the reason.
-fn status(status: &Status) -> (&'static str, &str) {
+pub(super) fn status_words(status: &Status) -> (&'static str, &str) {
     match status {
         Status::Done => ("done", ""),
         Status::Unstable => ("unstable", ""),
@@ -82,7 +96,7 @@ fn rows(study: &StudyRecord, to: &mut impl Write) -> io::Result<()> {
 
 fn row(case: &Case, norms: &[&str], on_front: bool) -> Vec<String> {
     let number = |number: Option<f64>| number.map_or_else(String::new, |number| format!("{number:?}"));
-    let (word, reason) = status(&case.status);
+    let (word, reason) = status_words(&case.status);
     let timing = case.timing.as_ref();
     let mut row = vec![
         case.line.clone(),

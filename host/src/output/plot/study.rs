@@ -37,8 +37,13 @@ const RESOLVED: f64 = 3.0;
 /// # Errors
 /// `Drawing` when it cannot be drawn, `Io` when it cannot be written, both with the path.
 pub(in crate::output) fn write_study_plot(study: &StudyRecord, path: &Path) -> Result<(), OutputError> {
-    let svg = draw(study).map_err(|source| OutputError::Drawing { path: path.into(), source: source.into() })?;
+    let svg = study_svg(study, path)?;
     write_file(path, |to| to.write_all(svg.as_bytes()))
+}
+
+/// The picture as the text of an SVG file, for the file at `path`.
+pub(in crate::output) fn study_svg(study: &StudyRecord, path: &Path) -> Result<String, OutputError> {
+    draw(study).map_err(|source| OutputError::Drawing { path: path.into(), source: source.into() })
 }
 
 /// A case as a point: run time and error.
