@@ -2,6 +2,8 @@
 //! failure back.
 #![cfg(target_os = "linux")]
 
+#[path = "support/checked.rs"]
+mod checked;
 #[path = "support/program.rs"]
 mod program;
 
@@ -9,6 +11,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use checked::{of, outcomes};
 use program::{ended, fails, folder, json, run, wearlaw, write};
 use serde_json::Value;
 use wearlaw::conformance::Check;
@@ -45,17 +48,6 @@ fn library(folder: &Path, name: &str, fault: &str) {
     assert_eq!(built.code, 0, "{}", built.stderr);
 }
 
-/// The object of one check in a JSON report.
-fn of<'d>(document: &'d Value, check: &str) -> &'d Value {
-    let checks = document["checks"].as_array().into_iter().flatten();
-    checks.into_iter().find(|found| found["check"] == check).unwrap_or_else(|| panic!("no {check} in {document:#}"))
-}
-
-fn outcomes<'d>(document: &'d Value, outcome: &str) -> Vec<&'d str> {
-    let checks = document["checks"].as_array().into_iter().flatten();
-    checks.filter(|check| check["outcome"] == outcome).filter_map(|check| check["check"].as_str()).collect()
-}
-
 #[test]
 fn the_list_has_every_check_and_needs_no_law() {
     let here = folder();
@@ -69,39 +61,6 @@ fn the_list_has_every_check_and_needs_no_law() {
     assert!(listed.stdout.ends_with(&format!("; --quick leaves out the {full} marked with †\n")), "{}", listed.stdout);
     let document = json(&run(here.path(), &["check", "--list", "--json"]).stdout);
     assert_eq!(document.as_array().map(Vec::len), Some(Check::ALL.len()));
-}
-
-#[test]
-fn a_law_that_starts_with_options_only_is_warned_of_without_them() {
-    let here = folder();
-    let create = "static int32_t started(const wl_host *host, const char *options, void **instance, char *text, int64_t size) {\n\
-        (void)host;\n    *instance = NULL;\n\
-        if (options && strcmp(options, \"table=steel\") == 0) return WL_OK;\n\
-        if (text && size > 0) snprintf(text, (size_t)size, \"which table?\");\n    return WL_FAILED;\n}\n\
-        WL_EXPORT int32_t wearlaw_entry_1(int32_t index, const wl_host *host, wl_law *law) {\n\
-        int32_t status = index == 0 ? filled(law) : WL_NO_MORE;\n    (void)host;\n\
-        if (status == WL_OK) law->create = started;\n    return status;\n}\n";
-    let law = LAW.replace("FAULT", "").replace("#include", "#define LAW_FILL filled\n#include");
-    write(here.path(), "optional.c", &format!("{law}{create}"));
-    let built = run(here.path(), &["build", "optional.c", "-o", "optional.so"]);
-    assert_eq!(built.code, 0, "{}", built.stderr);
-    let check = |more: &[&str]| {
-        let words =
-            [&["check", "optional.so", "--only", "faults/create", "--only", "batch/singles", "--json"], more].concat();
-        let ended = run(here.path(), &words);
-        (ended.code, json(&ended.stdout))
-    };
-    let (code, document) = check(&[]);
-    assert_eq!((code, of(&document, "faults/create")["outcome"].as_str()), (0, Some("warn")), "{document:#}");
-    assert!(
-        document.to_string().contains("which table?") && document.to_string().contains("--options"),
-        "{document:#}"
-    );
-    assert_eq!(of(&document, "batch/singles")["outcome"], "skipped");
-    let (code, document) = check(&["--options", "table=steel"]);
-    assert_eq!((code, outcomes(&document, "pass").len()), (0, 2), "{document:#}");
-    let (code, document) = check(&["--options", "table=wood"]);
-    assert_eq!((code, of(&document, "batch/singles")["outcome"].as_str()), (1, Some("fail")), "{document:#}");
 }
 
 /// Running-in over work with the state of the start of the substep, or over the substep: `RUN_IN` is the one or the other.
@@ -279,11 +238,11 @@ fn a_state_that_overflows_and_a_row_that_no_host_gives_are_found() {
     };
     let (code, what) = told("-1,2e9,5e7,1e-3,1,-2.5e-5", "");
     assert!(
-        code == 1 && what.ends_with("row 1: K = -1 lies outside of its bounds, so no host gives it to the law"),
+        code == 1 && what.ends_with("line 2: K = -1 lies outside of its bounds, so no host gives it to the law"),
         "{what}"
     );
     let (code, what) = told("1e-4,2e9,5e7,1e-3,1,2.5e-9", "return WL_UNRELIABLE;");
-    assert!(code == 1 && what.ends_with("row 1 is answered as unreliable"), "{what}");
+    assert!(code == 1 && what.ends_with("line 2 is answered as unreliable"), "{what}");
     assert_eq!(told("1e-4,2e9,5e7,1e-3,1,2.5e-9", ""), (0, String::new()));
 }
 
@@ -370,7 +329,8 @@ fn sources_are_built_and_every_law_of_a_library_is_checked() {
     write(here.path(), "expected.csv", "K,H,pressure,slip,dt,increment\n1e-4,2e9,5e7,1e-3,1,2.6e-9\n");
     let ended = run(here.path(), &["check", "mine.c", "--only", "values/expected"]);
     assert_eq!(ended.code, 1, "the value is off: {}", ended.stdout);
-    for words in ["expected.csv, row 1: increment does not come out", "found     increment 2.5", "2.6e-9 to 1e-12"] {
+    for words in ["expected.csv, line 2: increment does not come out", "found     increment 2.5", "2.6e-9, to 2.6e-21"]
+    {
         assert!(ended.stdout.contains(words), "{words} in {}", ended.stdout);
     }
     // A row may say that the law refuses it, and is shown with all that it gives.
@@ -380,7 +340,7 @@ fn sources_are_built_and_every_law_of_a_library_is_checked() {
     assert_eq!(run(here.path(), &words).code, 0);
     write(here.path(), "expected.csv", &format!("{head}\n1e-4,2e9,1,1e-3,1,2,-273.15,3,\n"));
     let ended = run(here.path(), &words);
-    for words in ["row 1 is answered", "found     status 0", "status 3\n", "dt 1, absolute_zero -273.15, time 2\n"] {
+    for words in ["line 2 is answered", "found     status 0", "status 3\n", "dt 1, absolute_zero -273.15, time 2\n"] {
         assert!(ended.stdout.contains(words), "{words} in {}", ended.stdout);
     }
     assert!(!here.path().join("libmine.so").exists(), "what is built on the way goes again");

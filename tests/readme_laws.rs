@@ -71,6 +71,35 @@ fn the_laws_of_the_readme_build_and_run_as_printed() {
 }
 
 #[test]
+fn the_law_with_options_passes_the_whole_check_with_a_table() {
+    let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let source = folder.path().join("law.c");
+    std::fs::write(&source, block_with(&text, "c", "\"tabulated\"")).expect("a writable folder");
+    std::fs::write(folder.path().join("table.csv"), "0, 0\n1, 1\n2, 3\n5, 4\n").expect("a writable folder");
+    std::fs::write(
+        folder.path().join("expected.csv"),
+        "k,p_0,pressure,slip,dt,increment\n2,1e6,5e5,0.1,1,0.1\n2,1e6,3.5e6,0.1,1,0.7\n2,1e6,9e9,0.1,1,0.8\n",
+    )
+    .expect("a writable folder");
+    native::try_compile(&source, &native::include(), &folder.path().join("law.so"), &[]).expect("it compiles");
+    let check = |options: &[&str]| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_wearlaw"));
+        program.args(["check", "law.so"]).args(options).current_dir(folder.path()).output().expect("it starts")
+    };
+    let output = check(&["--options", "table=table.csv"]);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("(3 rows,") && said.contains("beside instances with"), "{said}");
+    let (without, wrong) = (check(&[]), check(&["--options", "table=other.csv"]));
+    for output in [without, wrong] {
+        let said = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("not tested: ") && said.contains("there is no file"), "{said}");
+    }
+}
+
+#[test]
 fn the_law_in_rust_builds_and_answers_as_printed() {
     let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -22,8 +22,9 @@ struct RunningIn : Law<RunningIn> {
         const double slip = std::fabs(in.slip);
         const double decayed = c.s_0 * std::exp(-s.distance / c.s_0) * -std::expm1(-slip / c.s_0);
         const double fresh = decayed > slip ? slip : decayed; // rounding must not make the rest negative
-        out.d_pressure = (c.K_inf * (slip - fresh) + c.K_0 * fresh) / c.H;
-        out.increment = out.d_pressure * (in.pressure < 0 ? 0 : in.pressure);
+        const double slope = (c.K_inf * (slip - fresh) + c.K_0 * fresh) / c.H;
+        out.d_pressure = in.pressure < 0 ? 0 : slope;
+        out.increment = slope * (in.pressure < 0 ? 0 : in.pressure);
         out.state.distance = s.distance + slip;
         if (!std::isfinite(out.increment + out.state.distance)) {
             return out.refuse(WL_OUT_OF_DOMAIN, "no finite wear at pressure %g, slip %g", in.pressure, in.slip);

@@ -56,6 +56,8 @@ pub use worker::worker_main;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use outcome::NOT_STARTED;
+
 pub use crate::sampling::known::Expected;
 use wearlaw_law::Source;
 
@@ -156,6 +158,15 @@ impl Report {
     /// True if nothing falls short.
     pub fn passes(&self) -> bool {
         self.results.iter().all(|result| !result.outcome.falls_short())
+    }
+
+    /// Why nearly nothing was tried, if no instance could be made: that is no pass.
+    pub fn untested(&self) -> Option<&str> {
+        let reasons = self.results.iter().filter_map(|result| match &result.outcome {
+            Outcome::Skipped(reason) => Some(reason.as_str()),
+            _ => None,
+        });
+        reasons.into_iter().find(|reason| reason.starts_with(NOT_STARTED)).filter(|_| self.passes())
     }
 
     /// How many ended with that name of an outcome.

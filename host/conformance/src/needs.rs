@@ -97,13 +97,15 @@ fn after(check: Check) -> &'static [Check] {
     use Check::*;
     match check {
         LoadTwice => &[LoadThreads],
-        LoadSilent | LoadWorkingDirectory | LoadLocale | LoadSignals | LoadEnvironment => &[LoadThreads, LoadTwice],
+        LoadSilent => &[LoadThreads, LoadTwice, FaultsCreate],
+        LoadWorkingDirectory | LoadLocale | LoadSignals | LoadEnvironment => &[LoadThreads, LoadTwice],
+        FloatCreate | DescriptorText | DeterminismRecreate => &[FaultsCreate],
         FloatThread => &[FloatLoad, FloatEvaluate, FloatCreate, FloatDestroy],
         MemoryAfter | MemoryUnwritten => &[MemoryOutputs],
         MemoryBefore => &[MemoryOutputs, MemoryAfter],
         MemoryInputs => &[MemoryOutputs, MemoryAfter, MemoryBefore],
         MemoryUses => &[MemoryUndeclared],
-        MemoryInstances => &[MemoryCalls, LoadThreads],
+        MemoryInstances => &[MemoryCalls, LoadThreads, FaultsCreate],
         ValuesExpected => &[DescriptorExtension, MemoryUndeclared],
         ValuesExtremes => &[ValuesFinite, ValuesZeroPressure, ValuesZeroSlip, ValuesZeroDt, ValuesNegativePressure],
         ValuesBounds => &[ValuesExtremes, ThreadsInterleaved],

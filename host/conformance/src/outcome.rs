@@ -4,6 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::check::Check;
 
+/// How the reason begins why a check was skipped for want of an instance.
+pub(super) const NOT_STARTED: &str = "the law refuses to start";
+
 /// Evidence against a law: enough for its author to see what happened and to do it again.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Finding {

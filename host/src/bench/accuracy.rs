@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn a_row_that_cannot_be_asked_is_told() {
-        assert!(of("-1,2e9,5e7,0.2,1,1,1\n").unwrap_err().starts_with("t, row 1: K = -1"));
+        assert!(of("-1,2e9,5e7,0.2,1,1,1\n").unwrap_err().starts_with("t, line 2: K = -1"));
         assert!(of("1e-4,2e9,,0.2,1,1,1\n").unwrap_err().contains("`pressure`"));
     }
 }

@@ -351,7 +351,10 @@ Outcomes:
   skipped      it does not apply to this law, or is waived
 
 What fails leaves a file in NAME.check/, which --replay runs again. Ends with 0 if every check passes, 1 if one does not,
-2 if the file is no law or no check was run, 70 for a fault of the checker.";
+2 if the file is no law, no check was run or the law does not start with these options, 70 for a fault of the checker.
+
+A law that needs options is tested with those of --options, and with what comes of them when their last value is another:
+a file that is missing, empty or cut short, a number that is none, a very long text.";
 
 const COMPLETING: &str = "\
 Where the completions go:

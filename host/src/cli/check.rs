@@ -9,6 +9,7 @@ use super::args::{CheckArguments, ReportFormat};
 use super::console::Console;
 use super::interrupt::Interrupt;
 use super::opening::found;
+use super::table::folded;
 use crate::conformance::{
     Check, CheckOptions, ConformanceError, Event, Expected, Replay, Report, TIMEOUT, Waivers, report, run, select,
 };
@@ -56,9 +57,27 @@ pub(super) fn command(console: &Console, arguments: &CheckArguments) -> Result<E
         ReportFormat::Json => console.document(&report::json(&checked, typed))?,
         ReportFormat::Junit => console.result(&report::junit(&checked, typed))?,
         ReportFormat::Text if console.quiet => console.result(&report::quiet(&checked))?,
-        ReportFormat::Text => console.result(&report::text(&checked, &options, typed))?,
+        ReportFormat::Text => console.result(&for_people(&report::text(&checked, &options, typed)))?,
     }
-    Ok(if checked.passes() { ExitCode::Done } else { ExitCode::FallsShort })
+    Ok(match checked.untested() {
+        // The options are missing or wrong, and nearly nothing was tried.
+        Some(_) => ExitCode::InputWrong,
+        None if checked.passes() => ExitCode::Done,
+        None => ExitCode::FallsShort,
+    })
+}
+
+/// A report in lines as long as the terminal is wide, where it goes to one; the commands in it stay whole.
+fn for_people(text: &str) -> String {
+    let Some((terminal_size::Width(width), _)) = terminal_size::terminal_size_of(std::io::stdout()) else {
+        return text.to_owned();
+    };
+    folded(text, usize::from(width), |line| match line.trim_start() {
+        command if command.starts_with("again ") => None,
+        _ if line.starts_with("      ") => Some(report::EVIDENCE),
+        _ if line.starts_with("  ") => Some(report::WORDS),
+        _ => Some(2),
+    })
 }
 
 /// Runs the checks, with a line on a terminal that says which.

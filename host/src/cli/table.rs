@@ -41,6 +41,30 @@ pub(super) fn labelled(label: &str, text: &str, label_width: usize, width: usize
     lines
 }
 
+/// A text whose lines are broken at blanks so that none is longer than `width` where that can be; what is broken goes on
+/// below the place that `hang` answers for a line, and a line without one stays whole.
+pub(super) fn folded(text: &str, width: usize, hang: impl Fn(&str) -> Option<usize>) -> String {
+    let mut all = String::new();
+    for whole in text.lines() {
+        let place = hang(whole).filter(|place| length(whole) > width && *place > 0 && place + 20 <= width);
+        let place = place.filter(|place| whole.is_char_boundary(*place) && *place < whole.len());
+        match place {
+            Some(place) => {
+                let (before, rest) = whole.split_at(place);
+                let lines = labelled("", rest.trim_start(), place - 2, width);
+                // The first line begins with what stands before the place.
+                all.push_str(before);
+                all.push_str(lines.get(place..).unwrap_or_default());
+            }
+            None => {
+                all.push_str(whole);
+                all.push('\n');
+            }
+        }
+    }
+    all
+}
+
 fn length(text: &str) -> usize {
     text.chars().count()
 }
@@ -55,6 +79,17 @@ mod tests {
         let rows = [row(&["a", "1/Pa", ""]), row(&["long", "m", "what"])];
         assert_eq!(aligned(&rows, 2), "  a     1/Pa\n  long  m     what\n");
         assert_eq!(aligned(&[], 2), "");
+    }
+
+    #[test]
+    fn long_lines_go_on_below_the_place_that_is_theirs() {
+        let text =
+            "  ok    one     in two three four five six\n  again do not break this line at any of its blanks\nshort\n";
+        let hang = |line: &str| (!line.contains("again")).then_some(16);
+        let wanted = "  ok    one     in two three four\n                five six\n  again do not break this line at any of its blanks\n\
+                      short\n";
+        assert_eq!(folded(text, 36, hang), wanted);
+        assert_eq!(folded(text, 20, hang), text, "no room");
     }
 
     #[test]

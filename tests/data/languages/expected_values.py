@@ -45,7 +45,8 @@ def running_in(x):
         x["K_inf"] * abs(x["slip"])
         + (x["K_0"] - x["K_inf"]) * x["s_0"] * ((-start / x["s_0"]).exp() - (-end / x["s_0"]).exp())
     ) / x["H"]
-    return {"increment": slope * max(x["pressure"], Decimal(0)), "d_pressure": slope, "distance_end": end}
+    worn = x["pressure"] >= 0
+    return {"increment": slope * max(x["pressure"], Decimal(0)), "d_pressure": slope * worn, "distance_end": end}
 
 
 def dissipated_work(x):

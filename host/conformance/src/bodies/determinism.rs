@@ -7,6 +7,7 @@ use super::super::harness::subject::{Instance, Law};
 use super::super::message::{Judged, Verdict};
 use super::super::outcome::Finding;
 use super::bench::{Bench, Differences, POINTS, ask, still_good};
+use super::options::altered;
 
 /// Answers to a case in every way of asking.
 pub(super) fn all_ways(law: &Law<'_>, instance: &Instance<'_>, case: &Case) -> Vec<Answers> {
@@ -126,5 +127,27 @@ pub(super) fn recreate(bench: &Bench) -> Judged {
         let what = "an instance gives another answer once another one was destroyed";
         compare(&law, &case, (&before, &again), what, &mut differences)?;
     }
-    differences.judge(&law.about)
+    // The text of its options is the host's again once it is made.
+    let mut alone = law.instance(&bench.task)?;
+    alone.lose_options();
+    let again = all_ways(&law, &alone, &case);
+    let what = "an instance gives another answer once the text of its options is gone";
+    compare(&law, &case, (&before, &again), what, &mut differences)?;
+    // One with other options is another one.
+    let mut others = 0;
+    for options in altered(&bench.task) {
+        let kept = law.instance(&bench.task)?;
+        let Ok(other) = law.create(options.words.as_deref()) else { continue };
+        others += 1;
+        all_ways(&law, &other, &case);
+        let again = all_ways(&law, &kept, &case);
+        let what = format!("an instance gives another answer beside one with the options {}", options.label);
+        compare(&law, &case, (&before, &again), &what, &mut differences)?;
+    }
+    Ok(match differences.judge(&law.about)? {
+        Verdict::Pass(Some(note)) if others > 0 => {
+            Verdict::Pass(Some(format!("{note}; beside instances with {others} other options")))
+        }
+        other => other,
+    })
 }

@@ -4,7 +4,6 @@
 use wearlaw_plugin_api::abi;
 
 use super::super::harness::call::{Asked, Call, Given, Layout, good};
-use super::super::harness::closeness::Difference;
 use super::super::harness::known::{SELFTEST, Table, selftest};
 use super::super::harness::points::number_text;
 use super::super::harness::subject::{Instance, Law};
@@ -54,6 +53,16 @@ pub(super) fn expected(bench: &Bench) -> Judged {
     })
 }
 
+/// How far a value is off what a row says, in words; nothing where that is no part of it.
+fn off(found: f64, expected: f64) -> String {
+    let part = (found - expected).abs() / expected.abs();
+    match part {
+        part if !part.is_finite() => String::new(),
+        part if part >= 1e-4 => format!(", {:.3} % off", 100.0 * part),
+        part => format!(", a part {part:.0e} off: are all 17 digits of the value there?"),
+    }
+}
+
 /// Holds the law to a row: how many values were compared, and the most units in the last place that one is off.
 fn one(law: &Law<'_>, instance: &Instance<'_>, table: &Table, row: usize, asked: Asked) -> Judged<(usize, u64)> {
     let about = &law.about;
@@ -88,11 +97,10 @@ fn one(law: &Law<'_>, instance: &Instance<'_>, table: &Table, row: usize, asked:
             worst = worst.max(if direction { 0 } else { ulps(found, expected) });
             continue;
         }
-        let item = Difference { item: "", one: found, other: expected, ulps: ulps(found, expected), small: false };
         let finding = Finding::new(format!("{name}: {head} does not come out")).at(input());
         return broken(finding.with(
-            format!("{head} {}", number_text(item.one)),
-            format!("{head} {} to {TOLERANCE:e}", number_text(item.other)),
+            format!("{head} {}{}", number_text(found), off(found, expected)),
+            format!("{head} {}, to {allowed:.1e}", number_text(expected)),
         ));
     }
     Ok((compared, worst))

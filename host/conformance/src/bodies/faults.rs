@@ -14,6 +14,7 @@ use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::bench::{Bench, POINTS};
 use super::extremes::is_unit_vector;
+use super::options::{Strange, altered, senseless};
 use wearlaw_law::fields::Shape;
 use wearlaw_law::{Field, LawDescriptor};
 
@@ -26,9 +27,6 @@ const STACK: usize = 2 << 20;
 
 /// Values that laws stumble over.
 const ODD: [f64; 9] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, -0.0, 1e300, -1e300, 5e-324];
-
-/// Options that make no sense to any law.
-pub(super) const NO_OPTION: &CStr = c"no such option";
 
 /// Calls of one point each with an odd value of one field, constant, state variable or input that a host could give,
 /// and `wild` points whose values run over all decades.
@@ -177,18 +175,24 @@ pub(super) fn create(bench: &Bench) -> Judged {
         return skip("the law has no create");
     }
     let words = bench.task.options.as_deref().and_then(|words| CString::new(words).ok());
-    let usual = law.create(words.as_deref()).map(drop);
-    let long = "no-such-option = 1; ".repeat(500);
-    let options = [None, Some(""), Some("no such option"), Some("no-such-file.csv"), Some("=%s%n\u{1}"), Some(&long)];
+    bench.label("create with the usual options");
+    let (usual, wrote) = law.create_in(words.as_deref().map(|words| words.to_bytes_with_nul().to_vec()));
+    let usual = usual.map(drop);
+    if wrote {
+        let finding = Finding::new("create writes to the text of its options, which is the host's");
+        return broken(finding.with("other options after the call", "the options as they were"));
+    }
+    bench.label("create with the usual options once more");
+    again(&law, &usual, words.as_deref(), "the second create with the same options is refused")?;
+    let others: Vec<Strange> = senseless().into_iter().chain(altered(&bench.task)).collect();
     let mut refused = 0;
-    for options in options {
-        bench.label(&format!("create with the options {:.60?}", options.unwrap_or("NULL")));
-        let words = options.and_then(|words| CString::new(words).ok());
-        let Err((status, text)) = law.create(words.as_deref()) else { continue };
+    for options in &others {
+        bench.label(&format!("create with the options {}", options.label));
+        let Err((status, text)) = law.create(options.words.as_deref()) else { continue };
         refused += 1;
         let known = (abi::WL_UNRELIABLE..=abi::WL_FAILED).contains(&status);
         if text.trim().is_empty() || !known {
-            let finding = Finding::new(format!("create refuses the options {:.60?}", options.unwrap_or("NULL")));
+            let finding = Finding::new(format!("create refuses the options {}", options.label));
             return broken(finding.with(
                 format!("status {status}, text {text:?}"),
                 "a status of this version, and a text that says why",
@@ -197,14 +201,22 @@ pub(super) fn create(bench: &Bench) -> Judged {
     }
     // What was refused is none of the business of the next one.
     bench.label("create with the usual options, after others were refused");
-    if let (Ok(()), Err((status, text))) = (&usual, law.create(words.as_deref()).map(drop)) {
-        let finding = Finding::new("create refuses the usual options once others were refused");
-        return broken(finding.with(format!("status {status}, text {text:?}"), "an instance, as before"));
-    }
-    if let (Err((status, text)), None) = (usual, &words) {
-        let finding = Finding::new("create refuses to start without options, so most checks test nothing");
+    again(&law, &usual, words.as_deref(), "create refuses the usual options once others were refused")?;
+    if let Err((status, text)) = usual {
+        let how = if words.is_some() { "with the options given" } else { "without options" };
+        let finding = Finding::new(format!("create refuses to start {how}, so most checks test nothing"));
         let wanted = "an instance; give the options that it needs with --options";
         return Ok(Verdict::Warn(finding.with(format!("status {status}, text {text:?}"), wanted)));
     }
-    Ok(Verdict::Pass(Some(format!("{refused} of 6 options refused, each with a text"))))
+    Ok(Verdict::Pass(Some(format!("{refused} of {} other options refused, each with a text", others.len()))))
+}
+
+/// Holds a create to an earlier one with the same options that went well.
+fn again(law: &Law<'_>, usual: &Result<(), (i32, String)>, words: Option<&CStr>, what: &str) -> Judged<()> {
+    match (usual, law.create(words)) {
+        (Ok(()), Err((status, text))) => {
+            broken(Finding::new(what).with(format!("status {status}, text {text:?}"), "an instance, as before"))
+        }
+        _ => Ok(()),
+    }
 }

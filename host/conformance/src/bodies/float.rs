@@ -7,7 +7,8 @@ use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::super::slate::Phase;
 use super::bench::{Bench, POINTS, ask};
-use super::faults::{NO_OPTION, odd_cases};
+use super::faults::odd_cases;
+use super::options::{altered, senseless};
 use wearlaw_law::float_env::FloatEnv;
 
 /// Calls that are made in a row.
@@ -63,7 +64,9 @@ pub(super) fn create(bench: &Bench) -> Judged {
     }
     drop(law.create(None));
     // What is refused leaves it alone as well.
-    drop(law.create(Some(NO_OPTION)));
+    for options in senseless().into_iter().chain(altered(&bench.task)) {
+        drop(law.create(options.words.as_deref()));
+    }
     drop(law.instance(&bench.task)?);
     judge(&library, &[Phase::Creating], "")
 }

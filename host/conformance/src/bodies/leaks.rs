@@ -9,7 +9,8 @@ use super::super::harness::surroundings::open_files;
 use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::bench::Bench;
-use super::faults::{NO_OPTION, odd_cases};
+use super::faults::odd_cases;
+use super::options::{Strange, altered, senseless};
 
 /// Calls that are made.
 const CALLS: usize = 100_000;
@@ -21,6 +22,8 @@ const WARM: usize = 2_000;
 /// Instances that are made, and those before anything is measured.
 const INSTANCES: usize = 1_000;
 const WARM_INSTANCES: usize = 50;
+/// How many times fewer for each of the altered options.
+const FEWER: usize = 4;
 /// Bytes a call or an instance that are told: less than the smallest piece of the heap.
 const LEAST: f64 = 8.0;
 /// Growth of the heap between two marks that may be pieces which the C library keeps for later.
@@ -169,12 +172,21 @@ fn evaluate(call: &mut Call, instance: &Instance<'_>, at: usize) {
     }
 }
 
-/// Creates that are refused must give back what they took until then.
+/// Creates that are refused must give back what they took until then, wherever they are refused.
 fn refusals(bench: &Bench, law: &Law<'_>) -> Judged<()> {
-    if law.create(Some(NO_OPTION)).is_ok() {
-        return Ok(());
+    let senseless = senseless();
+    let first = senseless.iter().filter(|options| options.words.is_some()).take(1);
+    let altered = altered(&bench.task);
+    let others: Vec<&Strange> = first.chain(&altered).collect();
+    for (place, options) in others.iter().enumerate() {
+        if law.create(options.words.as_deref()).is_ok() {
+            continue;
+        }
+        bench.label(&format!("create with the options {}", options.label));
+        let count = if place == 0 { INSTANCES } else { INSTANCES / FEWER };
+        let what = format!("refused creates, with the options {}", options.label);
+        measured(bench, WARM_INSTANCES, count, &what, |_| drop(law.create(options.words.as_deref())))?;
     }
-    measured(bench, WARM_INSTANCES, INSTANCES, "refused creates", |_| drop(law.create(Some(NO_OPTION))))?;
     Ok(())
 }
 

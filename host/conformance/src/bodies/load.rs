@@ -12,6 +12,7 @@ use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::bench::{Bench, POINTS, ask};
 use super::faults::odd_cases;
+use super::options::{altered, senseless};
 use wearlaw_law::LawDescriptor;
 use wearlaw_law::file_facts::FileFacts;
 
@@ -129,6 +130,14 @@ fn evaluate(bench: &Bench, library: &Library, odd: usize) -> Judged<()> {
 
 /// Whether anything is printed; the checker looks once more when the worker has ended.
 pub(super) fn silent(bench: &Bench) -> Judged {
+    bench.needs_file()?;
+    let library = bench.open()?;
+    if let Ok(law) = library.law(&bench.task) {
+        for options in senseless().into_iter().chain(altered(&bench.task)) {
+            drop(law.create(options.words.as_deref()));
+        }
+    }
+    library.close();
     live(bench)?;
     // SAFETY: NULL means every stream.
     unsafe { libc::fflush(std::ptr::null_mut()) };

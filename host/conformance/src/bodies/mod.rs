@@ -16,6 +16,7 @@ mod float;
 mod leaks;
 mod load;
 mod memory;
+mod options;
 mod physics;
 mod spread;
 mod state;

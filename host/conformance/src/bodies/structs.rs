@@ -12,7 +12,8 @@ use super::super::harness::subject::{Instance, Law, Library};
 use super::super::message::{Judged, Verdict, broken};
 use super::super::outcome::Finding;
 use super::bench::{Bench, POINTS, ask, still_good};
-use super::faults::{NO_OPTION, odd_cases};
+use super::faults::odd_cases;
+use super::options::{Strange, altered, senseless};
 use wearlaw_law::table::{preset_quantity, preset_table, this_host};
 
 /// Bytes of the structs of version 1.0, which no later host makes shorter.
@@ -208,10 +209,14 @@ pub(super) fn text(bench: &Bench) -> Judged {
     let library = bench.open()?;
     let law = library.law(&bench.task)?;
     let mut texts = 0;
+    let others: Vec<Strange> = senseless().into_iter().chain(altered(&bench.task)).collect();
     for size in TEXTS {
-        for options in [Some(NO_OPTION), None, Some(c"no-such-file.csv")] {
-            bench.label(&format!("create, with a buffer of {size} bytes for its text"));
-            texts += usize::from(created_text(&law, options, size)?);
+        for options in &others {
+            bench.label(&format!(
+                "create with the options {}, with a buffer of {size} bytes for its text",
+                options.label
+            ));
+            texts += usize::from(created_text(&law, options.words.as_deref(), size)?);
         }
     }
     let instance = law.instance(&bench.task)?;

@@ -174,10 +174,16 @@ pub(super) fn units(bench: &Bench) -> Judged {
                         None => Some(("increment", None, wanted.increment())),
                     };
                     let Some(different) = different else { continue };
+                    let mut finding = unlike(&single, about, &sizes, different);
                     if !stated(about) {
-                        return skip("the law states no units (every quantity is a number), and is not free of them");
+                        finding.what = format!(
+                            "in {} the law answers otherwise, and none of its quantities has a unit: a number with a unit is \
+                             hidden in it, unless it is meant for one set of units alone",
+                            sizes_text(&sizes)
+                        );
+                        return Ok(Verdict::Warn(finding));
                     }
-                    return broken(unlike(&single, about, &sizes, different));
+                    return broken(finding);
                 }
             }
         }

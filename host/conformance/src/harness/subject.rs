@@ -4,12 +4,13 @@
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::mem::ManuallyDrop;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use wearlaw_plugin_api::abi;
 
 use super::super::message::{Judged, Task, Verdict, broken};
-use super::super::outcome::Finding;
+use super::super::outcome::{Finding, NOT_STARTED};
 use super::super::slate::{Phase, Slate};
 use wearlaw_law::describe::describe;
 use wearlaw_law::file_facts::{FileFacts, LinkerRefusal};
@@ -23,6 +24,8 @@ pub(crate) struct Library {
     entry: abi::EntryFn,
     pub(crate) slate: &'static Slate,
     floats: Mutex<Vec<(Phase, String)>>,
+    /// Whether the options of the task were good for an instance already.
+    started: AtomicBool,
     /// Stays open to the end of the process unless it is closed: what goes wrong then is one check's finding and not all's.
     file: ManuallyDrop<Option<LibraryFile>>,
 }
@@ -32,7 +35,13 @@ impl Library {
     pub(crate) fn open(task: &Task, slate: &'static Slate) -> Judged<Self> {
         match &task.source {
             Source::Embedded(name) => match embedded::function(name) {
-                Some(entry) => Ok(Self { entry, slate, floats: Mutex::default(), file: ManuallyDrop::new(None) }),
+                Some(entry) => Ok(Self {
+                    entry,
+                    slate,
+                    floats: Mutex::default(),
+                    started: AtomicBool::new(false),
+                    file: ManuallyDrop::new(None),
+                }),
                 None => broken(Finding::new(format!("this program holds no law `{name}`"))),
             },
             Source::File(path) => Self::open_file(path, slate),
@@ -62,7 +71,13 @@ impl Library {
         };
         // SAFETY: by the ABI, a symbol of this name is a function of this type.
         let entry = unsafe { std::mem::transmute::<*const c_void, abi::EntryFn>(address) };
-        Ok(Self { entry, slate, floats: Mutex::new(floats), file: ManuallyDrop::new(Some(file)) })
+        Ok(Self {
+            entry,
+            slate,
+            floats: Mutex::new(floats),
+            started: AtomicBool::new(false),
+            file: ManuallyDrop::new(Some(file)),
+        })
     }
 
     /// Calls the entry with a table of the caller's.
@@ -215,21 +230,35 @@ impl<'l> Law<'l> {
         }
     }
 
-    /// Makes an instance, or gives the law's status and text of refusal.
+    /// Makes an instance, or gives the law's status and text of refusal. The options live as long as the instance.
     pub(crate) fn create(&self, options: Option<&CStr>) -> Result<Instance<'_>, (i32, String)> {
-        let mut pointer = std::ptr::null_mut();
+        self.create_in(options.map(|words| words.to_bytes_with_nul().to_vec())).0
+    }
+
+    /// As [`Law::create`] with a text that ends with its NUL; also whether the law wrote to it.
+    pub(crate) fn create_in(&self, words: Option<Vec<u8>>) -> (Result<Instance<'_>, (i32, String)>, bool) {
+        let mut instance = Instance { law: self, pointer: std::ptr::null_mut(), words };
+        let mut wrote = false;
         if let Some(create) = self.table.create {
             let mut text: [c_char; TEXT_SIZE] = [0; TEXT_SIZE];
-            let words = options.map_or(std::ptr::null(), CStr::as_ptr);
+            let before = instance.words.clone();
+            let words = instance.words.as_mut().map_or(std::ptr::null(), |words| words.as_mut_ptr().cast_const());
+            let mut pointer = std::ptr::null_mut();
             // SAFETY: the function belongs to the open library; all pointers lead to live values.
             let status = self.library.watched(Phase::Creating, || unsafe {
-                create(this_host(), words, &mut pointer, text.as_mut_ptr(), TEXT_SIZE as i64)
+                create(this_host(), words.cast(), &mut pointer, text.as_mut_ptr(), TEXT_SIZE as i64)
             });
+            wrote = instance.words != before;
             if status != abi::WL_OK {
-                return Err((status, chars_text(&text)));
+                // There is nothing to destroy.
+                let words = instance.words.take();
+                std::mem::forget(instance);
+                drop(words);
+                return (Err((status, chars_text(&text))), wrote);
             }
+            instance.pointer = pointer;
         }
-        Ok(Instance { law: self, pointer })
+        (Ok(instance), wrote)
     }
 
     /// Calls `create` with a buffer of the caller's for its text; destroys what it makes.
@@ -245,7 +274,7 @@ impl<'l> Law<'l> {
             .library
             .watched(Phase::Creating, || unsafe { create(this_host(), words, &mut pointer, text, text_size) });
         if status == abi::WL_OK {
-            drop(Instance { law: self, pointer });
+            drop(Instance { law: self, pointer, words: None });
         }
         Some(status)
     }
@@ -257,14 +286,18 @@ impl<'l> Law<'l> {
             return broken(Finding::new("the options hold a NUL character"));
         };
         match self.create(options.as_deref()) {
-            Ok(instance) => Ok(instance),
-            Err((_, text)) if task.options.is_none() => Err(Box::new(Verdict::Skip(format!(
-                "the law refuses to start without options ({text}); give them with --options"
-            )))),
-            Err((status, text)) => {
-                let what = format!("create refuses the options given: {text}");
-                broken(Finding::new(what).with(format!("status {status}"), format!("{}", abi::WL_OK)))
+            Ok(instance) => {
+                self.library.started.store(true, Ordering::Relaxed);
+                Ok(instance)
             }
+            Err((status, text)) if self.library.started.load(Ordering::Relaxed) => {
+                let what = "create refuses what it accepted before: it keeps something from one instance to the next";
+                broken(Finding::new(what).with(format!("status {status}, text {text:?}"), "an instance, as before"))
+            }
+            Err((_, text)) => Err(Box::new(Verdict::Skip(match task.options {
+                None => format!("{NOT_STARTED} without options ({text}); give them with --options"),
+                Some(_) => format!("{NOT_STARTED} with the options given ({text})"),
+            }))),
         }
     }
 
@@ -278,6 +311,8 @@ impl<'l> Law<'l> {
 pub(crate) struct Instance<'l> {
     pub(crate) law: &'l Law<'l>,
     pointer: *mut c_void,
+    /// The options that it was made with, to their NUL.
+    words: Option<Vec<u8>>,
 }
 
 // SAFETY: the ABI lets an instance be used from any thread; checks that use several at once mind the flag SERIAL.
@@ -286,6 +321,13 @@ unsafe impl Send for Instance<'_> {}
 unsafe impl Sync for Instance<'_> {}
 
 impl Instance<'_> {
+    /// Writes other words over the options that it was made with: they are the host's.
+    pub(crate) fn lose_options(&mut self) {
+        if let Some((_, words)) = self.words.as_mut().and_then(|words| words.split_last_mut()) {
+            words.fill(b'?');
+        }
+    }
+
     /// Calls the law.
     ///
     /// # Safety

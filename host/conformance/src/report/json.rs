@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::super::Report;
 use super::super::outcome::{CheckResult, Outcome};
 
-/// The document: `passes`, `laws`, `seed`, `seconds`, `counts` by outcome, and `checks`, one object each.
+/// The document: `passes`, `untested` (why no instance could be made; null where one was), `laws`, `seed`, `seconds`, `counts` by outcome, and `checks`, one object each.
 pub fn json(report: &Report, law: &str) -> Value {
     let names = ["pass", "warn", "fail", "crashed", "timed-out", "skipped", "blocked"];
     let counts: serde_json::Map<String, Value> =
@@ -13,7 +13,8 @@ pub fn json(report: &Report, law: &str) -> Value {
     json!({
         "law": law,
         "laws": report.laws,
-        "passes": report.passes(),
+        "passes": report.passes() && report.untested().is_none(),
+        "untested": report.untested(),
         "seed": report.seed,
         "seconds": report.seconds,
         "counts": counts,

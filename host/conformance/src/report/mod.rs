@@ -8,4 +8,4 @@ mod text;
 pub use json::json;
 pub use junit::junit;
 pub use list::{list_json, list_text, page};
-pub use text::{line, quiet, summary, text};
+pub use text::{EVIDENCE, WORDS, line, quiet, summary, text};

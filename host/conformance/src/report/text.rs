@@ -10,6 +10,10 @@ const NAME: usize = 29;
 const OUTCOME: usize = 9;
 /// Width of the labels under a failed check.
 const LABEL: usize = 8;
+/// Columns before the words of a check.
+pub const WORDS: usize = 2 + OUTCOME + 2 + NAME + 2;
+/// Columns before the words of its evidence.
+pub const EVIDENCE: usize = 6 + LABEL + 2;
 /// Most characters of a line of evidence.
 const MOST: usize = 1000;
 /// Inputs on one line.
@@ -44,12 +48,18 @@ pub fn text(report: &Report, options: &CheckOptions, law: &str) -> String {
         }
         text.push_str(&line(result));
         if let Some(finding) = result.outcome.finding() {
-            text.push_str(&evidence(result, finding, law, options.seed));
+            text.push_str(&evidence(result, finding, law, options));
         }
     }
     if !options.left_out.is_empty() {
         let names: Vec<&str> = options.left_out.iter().map(|check| check.name()).collect();
         let _ = writeln!(text, "left out by --quick: {}", names.join(", "));
+    }
+    let short =
+        report.results.iter().filter(|result| result.outcome.falls_short() && result.outcome.finding().is_some());
+    let short: Vec<&str> = short.map(|result| result.check.name()).collect();
+    if !short.is_empty() {
+        let _ = writeln!(text, "to mend, each shown above: {}", short.join(", "));
     }
     text.push_str(&summary(report));
     text
@@ -76,7 +86,7 @@ fn shown(outcome: &Outcome) -> String {
 }
 
 /// What its author needs to know of a check that failed or warned.
-fn evidence(result: &CheckResult, finding: &Finding, law: &str, seed: u64) -> String {
+fn evidence(result: &CheckResult, finding: &Finding, law: &str, options: &CheckOptions) -> String {
     let facts = result.check.facts();
     let mut text = String::new();
     let mut row = |label: &str, words: &str| {
@@ -109,8 +119,11 @@ fn evidence(result: &CheckResult, finding: &Finding, law: &str, seed: u64) -> St
             row("again", &format!("wearlaw check {} --replay {}", quoted(&law), quoted(&path.display().to_string())))
         }
         None => {
+            let seed = options.seed;
             let seed = if seed == CheckOptions::SEED { String::new() } else { format!(" --seed {seed}") };
-            row("again", &format!("wearlaw check {} --only {}{seed}", quoted(&law), facts.name));
+            let words =
+                options.options.as_ref().map_or_else(String::new, |words| format!(" --options {}", quoted(words)));
+            row("again", &format!("wearlaw check {} --only {}{seed}{words}", quoted(&law), facts.name));
         }
     }
     text
@@ -170,7 +183,11 @@ pub fn summary(report: &Report) -> String {
         .filter(|(name, count)| *count > 0 || **name == "pass")
         .map(|(name, count)| format!("{count} {name}"))
         .collect();
-    let verdict = if report.passes() { "passes" } else { "falls short" };
+    let verdict = match report.untested() {
+        Some(reason) => format!("{}\nnot tested", readable(reason)),
+        None if report.passes() => "passes".to_owned(),
+        None => "falls short".to_owned(),
+    };
     format!("{verdict}: {} ({:.1} s, seed {})\n", counts.join(", "), report.seconds, report.seed)
 }
 

@@ -95,6 +95,8 @@ pub struct Table {
     origin: String,
     heads: Vec<String>,
     rows: Vec<Vec<Cell>>,
+    /// The line of each row.
+    lines: Vec<u64>,
 }
 
 impl Table {
@@ -110,10 +112,11 @@ impl Table {
             csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
         let heads = reader.headers().map_err(|error| format!("{origin}: {error}"))?;
         let heads: Vec<String> = heads.iter().map(str::to_owned).collect();
-        let mut rows = Vec::new();
+        let (mut rows, mut lines) = (Vec::new(), Vec::new());
         for record in reader.records() {
             let record = record.map_err(|error| uneven(&error, origin))?;
             let line = record.position().map_or(0, csv::Position::line);
+            lines.push(line);
             let mut row = Vec::new();
             for (head, cell) in heads.iter().zip(&record) {
                 let read = if head == STATUS { Cell::read_status(cell) } else { Cell::read(cell) };
@@ -132,7 +135,7 @@ impl Table {
         if rows.is_empty() {
             return Err(format!("{origin} has no rows"));
         }
-        Ok(Self { origin: origin.to_owned(), heads, rows })
+        Ok(Self { origin: origin.to_owned(), heads, rows, lines })
     }
 
     /// The number in a row below a head; none for an empty cell, and for a head that the table has not.
@@ -160,9 +163,9 @@ impl Table {
         &self.origin
     }
 
-    /// A row in the words of a report, counted from 1.
+    /// A row in the words of a report: its line.
     pub fn row_name(&self, row: usize) -> String {
-        format!("{}, row {}", self.origin, row + 1)
+        format!("{}, line {}", self.origin, self.lines.get(row).copied().unwrap_or_default())
     }
 
     /// The status that a row has to be answered with; a word on what is wrong with it otherwise.
@@ -356,7 +359,7 @@ mod tests {
         let table = Table::parse(text, "t").unwrap();
         assert_eq!(table.misfit(&law), None);
         assert_eq!((table.status(0), table.status(1)), (Ok(abi::WL_OUT_OF_DOMAIN), Ok(abi::WL_OK)));
-        assert!(table.status(2).unwrap_err().contains("row 3: status 2.5"));
+        assert!(table.status(2).unwrap_err().contains("line 4: status 2.5"));
         assert_eq!(table.constants(&law), [[2.0, 1.0, 1.0, 1.0]], "those that something is known of");
         let shown = table.inputs(0, &table.case(0, &law).0, &law);
         let named = Table::parse("K,status\n1,WL_OUT_OF_DOMAIN\n1,WL_OK\n", "t").unwrap();
