@@ -1,6 +1,6 @@
 /*
- * Rule broken: the law answers the same in every consistent set of units.
- * The derivative is a difference quotient over one unit of pressure, which is little only where that is a pascal.
+ * Rule broken: d_pressure is the derivative of the increment with respect to the pressure.
+ * It is a difference quotient over one unit of pressure, which is no small step where the pressure is of that size.
  */
 #define LAW_NAME "slope-by-one-pascal"
 #define LAW_DEGREE 2

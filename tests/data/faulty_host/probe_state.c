@@ -52,10 +52,11 @@ static double slope(law_handle *h, void *instance, job *j, double p, double side
 
 static void derivative(law_handle *h, int kinks) {
     void *instance = make_instance(h);
-    for (int64_t at = 0; at < 800; ++at) { /* ordinary pressures, and some far above them */
-        int64_t i = at / 2;
+    for (int64_t at = 0; at < 1200; ++at) { /* ordinary pressures, some far above them and some far below */
+        static const double factors[] = {1, 1e5, 1e-6};
+        int64_t i = at / 3;
         job *all = make_job(h, 400, 1), *j = part_of(h, all, &i, 1);
-        double p = j->field[0][0] *= kinks || at % 2 ? 1 : 1e5;
+        double p = j->field[0][0] *= kinks ? 1 : factors[at % 3];
         double given = evaluate(h, instance, j, all_outputs(h))->slope[0];
         double left = slope(h, instance, j, p, -1), right = slope(h, instance, j, p, 1);
         double size = fmax(fabs(left), fabs(right));
