@@ -63,6 +63,38 @@ fn the_list_has_every_check_and_needs_no_law() {
     assert_eq!(document.as_array().map(Vec::len), Some(Check::ALL.len()));
 }
 
+#[test]
+fn jumps_of_the_increment_and_units_that_nothing_states_are_worth_a_warning() {
+    let here = folder();
+    let warned = |name: &str, law: &str, check: &str| {
+        write(here.path(), &format!("{name}.c"), law);
+        let ended = run(here.path(), &["check", &format!("{name}.c"), "--only", check, "--json"]);
+        let document = json(&ended.stdout);
+        let found = of(&document, check);
+        (ended.code, found["outcome"].as_str() == Some("warn"), found["what"].as_str().unwrap_or_default().to_owned())
+    };
+    let slope = "#define LAW_WRITES WL_OUT_D_PRESSURE\n#define LAW_FLAGS WL_FLAG_KINKS\n#include \"wearlaw_p";
+    let kinked = LAW.replace("#include \"wearlaw_p", slope);
+    let more = |jump: &str| {
+        let fault =
+            format!("int more = pressure > 3e7; out->d_pressure = c->K / c->H * fabs(in->slip) * (1 + more); {jump}");
+        kinked.replace("FAULT", &fault)
+    };
+    let (code, warns, what) = warned("jumps", &more("out->increment *= 1 + more;"), "derivative/kinks");
+    assert!(code == 0 && warns && what.contains("the increment itself jumps"), "{what}");
+    let goes_on = more("out->increment += more * c->K / c->H * (pressure - 3e7) * fabs(in->slip);");
+    assert_eq!(warned("goes_on", &goes_on, "derivative/kinks"), (0, false, String::new()));
+
+    let bare = |formula: &str| {
+        let law = LAW.replace("C(H, WL_PASCAL,", "C(H, WL_NUMBER,");
+        law.replace("FAULT", &format!("out->increment = {formula};"))
+    };
+    let (code, warns, what) = warned("hidden", &bare("c->K * c->H * pressure / 1e9 * fabs(in->slip)"), "physics/units");
+    assert!(code == 0 && warns && what.contains("none of its quantities has a unit"), "{what}");
+    let free = bare("c->K * c->H * fabs(in->slip) * (pressure > 0)");
+    assert_eq!(warned("free", &free, "physics/units"), (0, false, String::new()));
+}
+
 /// Running-in over work with the state of the start of the substep, or over the substep: `RUN_IN` is the one or the other.
 const RUNNING_IN: &str = r#"
 #define LAW_NAME "running-in"
