@@ -25,6 +25,16 @@ fn shell(folder: &Path, command: &str) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
+/// A folder with the law in C that has this text in it, built as `law.so`.
+fn built(marker: &str) -> tempfile::TempDir {
+    let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let source = folder.path().join("law.c");
+    std::fs::write(&source, block_with(&text, "c", marker)).expect("a writable folder");
+    native::try_compile(&source, &native::include(), &folder.path().join("law.so"), &[]).expect("it compiles");
+    folder
+}
+
 /// A law that a reader copies is one that may be given to others.
 fn passes_the_check(folder: &Path, name: &str) {
     let mut program = Command::new(env!("CARGO_BIN_EXE_wearlaw"));
@@ -72,17 +82,13 @@ fn the_laws_of_the_readme_build_and_run_as_printed() {
 
 #[test]
 fn the_law_with_options_passes_the_whole_check_with_a_table() {
-    let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let source = folder.path().join("law.c");
-    std::fs::write(&source, block_with(&text, "c", "\"tabulated\"")).expect("a writable folder");
+    let folder = built("\"tabulated\"");
     std::fs::write(folder.path().join("table.csv"), "0, 0\n1, 1\n2, 3\n5, 4\n").expect("a writable folder");
     std::fs::write(
         folder.path().join("expected.csv"),
         "k,p_0,pressure,slip,dt,increment\n2,1e6,5e5,0.1,1,0.1\n2,1e6,3.5e6,0.1,1,0.7\n2,1e6,9e9,0.1,1,0.8\n",
     )
     .expect("a writable folder");
-    native::try_compile(&source, &native::include(), &folder.path().join("law.so"), &[]).expect("it compiles");
     let check = |options: &[&str]| {
         let mut program = Command::new(env!("CARGO_BIN_EXE_wearlaw"));
         program.args(["check", "law.so"]).args(options).current_dir(folder.path()).output().expect("it starts")
@@ -115,11 +121,7 @@ fn the_law_in_rust_builds_and_answers_as_printed() {
 
 #[test]
 fn the_law_with_a_state_passes_the_check_and_answers_alike_however_time_is_cut() {
-    let text = std::fs::read_to_string(native::include().join("README.md")).expect("include/README.md is there");
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let source = folder.path().join("law.c");
-    std::fs::write(&source, block_with(&text, "c", "my-running-in")).expect("a writable folder");
-    native::try_compile(&source, &native::include(), &folder.path().join("law.so"), &[]).expect("it compiles");
+    let folder = built("my-running-in");
     // K_inf s + (K_0 - K_inf) s_0 (1 - exp(-s / s_0)), over H and times p: 5e7 * (1e-5 + 9e-5 * 0.1 (1 - exp(-10))) / 2e9.
     let whole = 5e7 / 2e9 * (1e-5 + 9e-6 * -(-10.0_f64).exp_m1());
     let half = 5e7 / 2e9 * (5e-6 + 9e-6 * -(-5.0_f64).exp_m1());
