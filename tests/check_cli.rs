@@ -95,6 +95,17 @@ fn jumps_of_the_increment_and_units_that_nothing_states_are_worth_a_warning() {
     assert_eq!(warned("free", &free, "physics/units"), (0, false, String::new()));
 }
 
+#[test]
+fn a_derivative_that_is_left_at_zero_is_told_to_be_missing() {
+    let here = folder();
+    let law = LAW.replace("#include \"wearlaw_p", "#define LAW_WRITES WL_OUT_D_PRESSURE\n#include \"wearlaw_p");
+    for (fault, words) in [("out->d_pressure = 0;", "is missing: it is 0"), ("out->d_pressure = 1;", "is wrong")] {
+        write(here.path(), "mine.c", &law.replace("FAULT", fault));
+        let ended = run(here.path(), &["check", "mine.c", "--only", "derivative/pressure", "-q"]);
+        assert!(ended.code == 1 && ended.stdout.contains(words), "{}", ended.stdout);
+    }
+}
+
 /// Running-in over work with the state of the start of the substep, or over the substep: `RUN_IN` is the one or the other.
 const RUNNING_IN: &str = r#"
 #define LAW_NAME "running-in"

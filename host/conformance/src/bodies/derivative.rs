@@ -89,8 +89,8 @@ const OTHERS: [f64; 8] = [1e-3, 30.0, -1.0, 1e3, 0.03, -1e-3, 1e-5, 1e5];
 enum Compared {
     /// Nothing: they are too vague, or the law refuses its values there.
     Nothing,
-    /// It is right.
-    Right,
+    /// It is right, and what it is.
+    Right(f64),
     /// It is wrong: what it is, and the best estimate.
     Wrong(f64, Estimate),
 }
@@ -115,7 +115,7 @@ fn compared(law: &Law<'_>, instance: &Instance<'_>, single: &Case, pressure: f64
         (slope - estimate.value).abs() <= allowed
     };
     if agrees(estimate) || estimates.iter().any(|estimate| within(estimate, SHARP) && agrees(estimate)) {
-        return Compared::Right;
+        return Compared::Right(slope);
     }
     Compared::Wrong(slope, *estimate)
 }
@@ -134,7 +134,7 @@ pub(super) fn pressure(bench: &Bench) -> Judged {
                 let pressure = factor * ordinary;
                 match compared(law, instance, &single, pressure) {
                     Compared::Nothing => {}
-                    Compared::Right => (count, zero) = (count + 1, false),
+                    Compared::Right(slope) => (count, zero) = (count + 1, zero && slope == 0.0),
                     // No contact has one, so a solver that asks there only finds its way back more slowly.
                     Compared::Wrong(slope, estimate) if pressure < 0.0 => {
                         below.get_or_insert_with(|| wrong(law, &single, pressure, slope, &estimate));
@@ -147,21 +147,20 @@ pub(super) fn pressure(bench: &Bench) -> Judged {
                 }
             }
         }
-        match first_wrong {
-            Some(mut finding) => {
+        match (first_wrong, below) {
+            (Some(mut finding), _) => {
                 if zero {
                     finding.what =
                         "the derivative with respect to the pressure is missing: it is 0 everywhere".to_owned();
                 }
                 broken(finding)
             }
-            None if below.is_some() => {
-                let mut finding = below.unwrap_or_default();
+            (None, Some(mut finding)) => {
                 finding.what = "the derivative is wrong at negative pressures".to_owned();
                 Ok(Verdict::Warn(finding))
             }
-            None if count == 0 => skip("no point where differences of the increment tell a derivative"),
-            None => Ok(Verdict::Pass(Some(format!("{count} points compared")))),
+            (None, None) if count == 0 => skip("no point where differences of the increment tell a derivative"),
+            (None, None) => Ok(Verdict::Pass(Some(format!("{count} points compared")))),
         }
     })
 }
