@@ -14,7 +14,7 @@ use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::bench::{Bench, POINTS};
 use super::extremes::is_unit_vector;
-use super::options::{Strange, altered, senseless};
+use super::options::others;
 use wearlaw_law::fields::Shape;
 use wearlaw_law::{Field, LawDescriptor};
 
@@ -184,7 +184,7 @@ pub(super) fn create(bench: &Bench) -> Judged {
     }
     bench.label("create with the usual options once more");
     again(&law, &usual, words.as_deref(), "the second create with the same options is refused")?;
-    let others: Vec<Strange> = senseless().into_iter().chain(altered(&bench.task)).collect();
+    let others = others(&bench.task);
     let mut refused = 0;
     for options in &others {
         bench.label(&format!("create with the options {}", options.label));

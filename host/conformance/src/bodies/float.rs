@@ -8,7 +8,7 @@ use super::super::outcome::Finding;
 use super::super::slate::Phase;
 use super::bench::{Bench, POINTS, ask};
 use super::faults::odd_cases;
-use super::options::{altered, senseless};
+use super::options::others;
 use wearlaw_law::float_env::FloatEnv;
 
 /// Calls that are made in a row.
@@ -64,7 +64,7 @@ pub(super) fn create(bench: &Bench) -> Judged {
     }
     drop(law.create(None));
     // What is refused leaves it alone as well.
-    for options in senseless().into_iter().chain(altered(&bench.task)) {
+    for options in others(&bench.task) {
         drop(law.create(options.words.as_deref()));
     }
     drop(law.instance(&bench.task)?);

@@ -12,7 +12,7 @@ use super::super::message::{Judged, Verdict, broken, skip};
 use super::super::outcome::Finding;
 use super::bench::{Bench, POINTS, ask};
 use super::faults::odd_cases;
-use super::options::{altered, senseless};
+use super::options::others;
 use wearlaw_law::LawDescriptor;
 use wearlaw_law::file_facts::FileFacts;
 
@@ -133,7 +133,7 @@ pub(super) fn silent(bench: &Bench) -> Judged {
     bench.needs_file()?;
     let library = bench.open()?;
     if let Ok(law) = library.law(&bench.task) {
-        for options in senseless().into_iter().chain(altered(&bench.task)) {
+        for options in others(&bench.task) {
             drop(law.create(options.words.as_deref()));
         }
     }

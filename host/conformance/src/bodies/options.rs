@@ -35,6 +35,11 @@ impl Strange {
     }
 }
 
+/// Everything besides the user's own options: what makes no sense to any law, and what comes of his.
+pub(super) fn others(task: &Task) -> Vec<Strange> {
+    senseless().into_iter().chain(altered(task)).collect()
+}
+
 /// What makes no sense to any law.
 pub(super) fn senseless() -> Vec<Strange> {
     let long = "no-such-option = 1; ".repeat(500);

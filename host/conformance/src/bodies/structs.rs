@@ -13,7 +13,7 @@ use super::super::message::{Judged, Verdict, broken};
 use super::super::outcome::Finding;
 use super::bench::{Bench, POINTS, ask, still_good};
 use super::faults::odd_cases;
-use super::options::{Strange, altered, senseless};
+use super::options::others;
 use wearlaw_law::table::{preset_quantity, preset_table, this_host};
 
 /// Bytes of the structs of version 1.0, which no later host makes shorter.
@@ -209,7 +209,7 @@ pub(super) fn text(bench: &Bench) -> Judged {
     let library = bench.open()?;
     let law = library.law(&bench.task)?;
     let mut texts = 0;
-    let others: Vec<Strange> = senseless().into_iter().chain(altered(&bench.task)).collect();
+    let others = others(&bench.task);
     for size in TEXTS {
         for options in &others {
             bench.label(&format!(
