@@ -1,7 +1,7 @@
 //! Wear of a ball on a flat until the scar has three times the Hertz radius: processor time, work and true errors.
 //!
 //! `cargo bench -p wearlaw --bench scar`; without `--bench` only small cases run. Further words pick cases by what their
-//! line begins with: `-- scar`, the same scar on 64 to 512 cells a side, `-- square`, a law of pressure exponent 2, or
+//! line begins with: `-- scar`, the same scar on 64 to 2048 cells a side, `-- square`, a law of pressure exponent 2, or
 //! `-- cycles`, 10 to 1000 strokes.
 
 mod support;
@@ -48,6 +48,10 @@ fn main() {
         // Of the largest grids a cheaper yardstick has to do; the twelve steps of the case itself are good to 1e-5.
         let yardstick = if *n > 128 { 1e-6 } else { 2e-7 };
         case.row(&format!("scar periodic {n}"), yardstick, |accuracy| scar("periodic", *n, 1.0, accuracy));
+    }
+    for n in if few { &[][..] } else { &[1024, 2048] } {
+        // No yardstick: these show how time grows with the cells.
+        case.timed(&format!("scar periodic {n}"), &scar("periodic", *n, 1.0, Accuracy { wear: 1e-3, contact: None }));
     }
     for n in if few { &[32][..] } else { &[256] } {
         case.row(&format!("scar free {n}"), 1e-6, |accuracy| scar("free", *n, 1.0, accuracy));

@@ -25,6 +25,8 @@ struct Track {
     last: Option<(f64, f64, f64)>,
     /// How much dearer it was than the one before.
     growth: f64,
+    /// Whether the last was unstable.
+    unstable: bool,
     open: bool,
     cases: Vec<Case>,
 }
@@ -63,7 +65,7 @@ pub(super) struct Field<'a> {
 impl Field<'_> {
     /// Runs the lines.
     pub(super) fn run(&self, lines: Vec<Line>, tell: &mut dyn FnMut(&str)) -> Found {
-        let track = |line| Track { line, next: 0, last: None, growth: 2.0, open: true, cases: Vec::new() };
+        let track = |line| Track { line, next: 0, last: None, growth: 2.0, unstable: false, open: true, cases: Vec::new() };
         let mut tracks: Vec<Track> = lines.into_iter().map(track).collect();
         let (mut grids, mut ended, mut interrupted) = (Vec::new(), Vec::new(), false);
         while let Some(index) = self.cheapest(&tracks) {
@@ -91,6 +93,7 @@ impl Field<'_> {
                         track.growth = one / before.max(1e-9);
                     }
                     track.last = Some((planned.value, one, ran.record.cost.steps as f64));
+                    track.unstable = case.status == Status::Unstable;
                     if let Some(why) = self.seen_enough(track, &case) {
                         ended.push(why);
                         track.open = false;
@@ -145,7 +148,12 @@ impl Field<'_> {
     /// What a case of a line is thought to take; seconds of one run.
     fn predicted(&self, tracks: &[Track], track: &Track, index: usize) -> f64 {
         let next = &track.line.cases[index];
+        let (wall_s, steps) = self.gauge.cheapest;
+        let usual = wall_s / steps;
         if let Some((value, wall_s, _)) = track.last {
+            if track.unstable {
+                return after_unstable(wall_s * next.value / value, usual * next.steps);
+            }
             let times = match track.line.kind {
                 Kind::Substeps => next.value / value,
                 Kind::Scaling => value / next.value,
@@ -156,10 +164,9 @@ impl Field<'_> {
         }
         // Nothing of the line is known: its steps cost what those of its method, or of any, have cost so far.
         let each = |track: &Track| track.last.map(|(_, wall_s, steps)| wall_s / steps.max(1.0));
-        let alike = tracks.iter().filter(|other| other.line.method == track.line.method);
-        let (wall_s, steps) = self.gauge.cheapest;
+        let alike = tracks.iter().filter(|other| other.line.method == track.line.method && !other.unstable);
         let each = alike.filter_map(each).fold(f64::NAN, f64::min);
-        let each = if each.is_nan() { wall_s / steps } else { each };
+        let each = if each.is_nan() { usual } else { each };
         match track.line.kind {
             Kind::Substeps | Kind::Scaling => each * next.steps,
             Kind::Tolerance => each,
@@ -242,6 +249,12 @@ impl Field<'_> {
     }
 }
 
+/// What a case is thought to take after an unstable one, whose chequerboards take more rounds than stable steps do: at
+/// most what as many steps of the yardstick's cheapest run take.
+fn after_unstable(scaled_s: f64, usual_s: f64) -> f64 {
+    if usual_s > 0.0 { scaled_s.min(usual_s) } else { scaled_s }
+}
+
 /// A case that has not run.
 fn blank(line: &Line, planned: &Planned) -> Case {
     Case {
@@ -273,4 +286,16 @@ fn on_grid(ran: &Ran) -> OnGrid {
 fn unresolved(errors: &Errors, stated: &Errors) -> Vec<String> {
     let small = |(name, error): &(&String, &f64)| stated.get(*name).is_some_and(|own| **error < RESOLVED * own);
     errors.iter().filter(small).map(|(name, _)| name.clone()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_unstable_steps_cost_does_not_keep_stable_ones_out() {
+        assert_eq!(after_unstable(480.0, 30.0), 30.0);
+        assert_eq!(after_unstable(2.0, 30.0), 2.0);
+        assert_eq!(after_unstable(2.0, 0.0), 2.0, "nothing is known of the yardstick");
+    }
 }

@@ -122,6 +122,8 @@ impl Kernel {
         } else if self.boundary == Boundary::Periodic {
             let lags = self.lags();
             Quarter::from_lags(padded, |x, y| lags.at(x, y)).transformed(set)
+        } else if !self.flat && padded[0] == padded[1] && self.spacing[0] == self.spacing[1] {
+            Quarter::from_equal_lags(padded[0], |x, y| self.free([x, y])).transformed(set)
         } else {
             Quarter::from_lags(padded, |x, y| self.free([x, y])).transformed(set)
         };

@@ -21,6 +21,20 @@ impl Quarter {
         Quarter { periods, values }
     }
 
+    /// From a function of the lags that is the same with x and y exchanged; both periods are equal.
+    pub fn from_equal_lags(period: usize, at: impl Fn(usize, usize) -> f64) -> Quarter {
+        let count = period / 2 + 1;
+        let mut values = vec![0.0; count * count];
+        for x in 0..count {
+            for y in 0..=x {
+                let value = at(x, y);
+                values[x * count + y] = value;
+                values[y * count + x] = value;
+            }
+        }
+        Quarter { periods: [period; 2], values }
+    }
+
     /// The value at any lags.
     pub fn at(&self, x: usize, y: usize) -> f64 {
         let [nx, ny] = self.periods;
