@@ -65,7 +65,8 @@ pub(super) struct Field<'a> {
 impl Field<'_> {
     /// Runs the lines.
     pub(super) fn run(&self, lines: Vec<Line>, tell: &mut dyn FnMut(&str)) -> Found {
-        let track = |line| Track { line, next: 0, last: None, growth: 2.0, unstable: false, open: true, cases: Vec::new() };
+        let track =
+            |line| Track { line, next: 0, last: None, growth: 2.0, unstable: false, open: true, cases: Vec::new() };
         let mut tracks: Vec<Track> = lines.into_iter().map(track).collect();
         let (mut grids, mut ended, mut interrupted) = (Vec::new(), Vec::new(), false);
         while let Some(index) = self.cheapest(&tracks) {
@@ -73,7 +74,10 @@ impl Field<'_> {
             let line = &tracks[index].line;
             tell(&format!("{} {}", line.name, crate::study::verdict::value_words(line.kind, planned.value)));
             let law = if line.isolated { self.elsewhere.unwrap_or(self.here) } else { self.here };
-            let how = How { budget: self.budget, until: 1.0, repeated: true, isolated: line.isolated };
+            // A case that takes longer than was thought does not take what is kept for others.
+            let kept_s = if planned.needed { 0.0 } else { self.kept_s(&tracks) };
+            let until = 1.0 - kept_s / self.budget.whole_s();
+            let how = How { budget: self.budget, until, repeated: true, isolated: line.isolated };
             let begin = self.budget.spent_s();
             let outcome = self.setup.run(law, &planned.overrides, how);
             let spent = self.budget.spent_s() - begin;
@@ -105,7 +109,12 @@ impl Field<'_> {
                 }
                 Outcome::Failed(reason) => case.status = Status::Failed(reason),
                 Outcome::Cut => {
-                    case.status = Status::LeftOut(format!("cut off after {spent:.2} s, when the budget was spent"));
+                    let why = if kept_s > 0.0 {
+                        "when what was left of the budget was kept for stable explicit runs"
+                    } else {
+                        "when the budget was spent"
+                    };
+                    case.status = Status::LeftOut(format!("cut off after {spent:.2} s, {why}"));
                     track.open = false;
                 }
                 Outcome::Interrupted => {
@@ -123,23 +132,32 @@ impl Field<'_> {
         self.gathered(tracks, grids, ended, interrupted)
     }
 
-    /// The line whose next case is the cheapest of those that fit, time being kept for what the verdict needs.
-    fn cheapest(&self, tracks: &[Track]) -> Option<usize> {
-        let kept = |track: &Track| {
-            let ahead = track.line.cases.iter().skip(track.next).position(|case| case.needed);
-            let ahead = ahead.filter(|_| track.open)?;
-            Some(self.predicted(tracks, track, track.next + ahead))
-        };
+    /// What the next case of a line that the verdict needs is thought to take.
+    fn needed_s(&self, tracks: &[Track], track: &Track) -> Option<f64> {
+        let ahead = track.line.cases.iter().skip(track.next).position(|case| case.needed);
+        let ahead = ahead.filter(|_| track.open)?;
+        Some(self.predicted(tracks, track, track.next + ahead))
+    }
+
+    /// Time that is kept for what the verdict needs.
+    fn kept_s(&self, tracks: &[Track]) -> f64 {
         let left = self.budget.left_s();
         // Time is kept for what can fit; keeping it for more would run nothing at all.
-        let all: f64 = tracks.iter().filter_map(kept).filter(|one| *one <= left).sum();
-        let all = if all > left { 0.0 } else { all };
+        let kept = tracks.iter().filter_map(|track| self.needed_s(tracks, track));
+        let all: f64 = kept.filter(|one| *one <= left).sum();
+        if all > left { 0.0 } else { all }
+    }
+
+    /// The line whose next case is the cheapest of those that fit, time being kept for what the verdict needs.
+    fn cheapest(&self, tracks: &[Track]) -> Option<usize> {
+        let left = self.budget.left_s();
+        let all = self.kept_s(tracks);
         let fitting = tracks.iter().enumerate().filter_map(|(index, track)| {
             let case = track.line.cases.get(track.next).filter(|_| track.open)?;
             let one = self.predicted(tracks, track, track.next);
             let for_others = if case.needed { 0.0 } else { all };
             // What the verdict needs, and what leads to it, comes before what costs as much.
-            let weight = if kept(track).is_some() { FIRST } else { 1.0 };
+            let weight = if self.needed_s(tracks, track).is_some() { FIRST } else { 1.0 };
             (SURPRISE * self.budget.whole_case_s(one) <= left - for_others.min(left)).then_some((index, weight * one))
         });
         fitting.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
@@ -148,8 +166,9 @@ impl Field<'_> {
     /// What a case of a line is thought to take; seconds of one run.
     fn predicted(&self, tracks: &[Track], track: &Track, index: usize) -> f64 {
         let next = &track.line.cases[index];
-        let (wall_s, steps) = self.gauge.cheapest;
-        let usual = wall_s / steps;
+        let (wall_s, solves) = self.gauge.cheapest;
+        // An explicit step solves the contact once; the others are tried with few steps first.
+        let usual = wall_s / solves;
         if let Some((value, wall_s, _)) = track.last {
             if track.unstable {
                 return after_unstable(wall_s * next.value / value, usual * next.steps);
@@ -250,7 +269,7 @@ impl Field<'_> {
 }
 
 /// What a case is thought to take after an unstable one, whose chequerboards take more rounds than stable steps do: at
-/// most what as many steps of the yardstick's cheapest run take.
+/// most what as many contact solves of the yardstick's cheapest run take.
 fn after_unstable(scaled_s: f64, usual_s: f64) -> f64 {
     if usual_s > 0.0 { scaled_s.min(usual_s) } else { scaled_s }
 }

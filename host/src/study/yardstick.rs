@@ -8,7 +8,7 @@ use super::frame::{Fields, Frame};
 use super::lines::Ground;
 use super::setup::{How, Outcome, Ran, Setup, effort};
 use crate::law::Evaluator;
-use crate::record::{Errors, Rung, Yardstick, YardstickKind};
+use crate::record::{Cost, Errors, Rung, Yardstick, YardstickKind};
 use crate::reference::NamedReference;
 use crate::scene::{Model, ScalingKind, Target};
 
@@ -39,8 +39,13 @@ pub(super) struct Gauge {
     pub(super) frame: Frame,
     /// Tolerance of a self-converged run.
     pub(super) tolerance: Option<f64>,
-    /// Seconds and steps of its cheapest run.
+    /// Seconds of its cheapest run, and how often it solved the contact; its steps, where none is solved.
     pub(super) cheapest: (f64, f64),
+}
+
+/// Contact solves of a run, at least its steps.
+fn solves(cost: &Cost) -> f64 {
+    cost.contact_solves.max(cost.steps).max(1) as f64
 }
 
 /// How the scene's own reference serves.
@@ -102,7 +107,7 @@ fn of_scene(
         frame: Frame::of(&scene, &record),
         fields: expected.into(),
         tolerance: None,
-        cheapest: (effort(&timing, false), record.cost.steps.max(1) as f64),
+        cheapest: (effort(&timing, false), solves(&record.cost)),
     })
 }
 
@@ -174,7 +179,7 @@ fn converged(
         };
         runs += 1;
         let (count, effort_s) = (ran.record.cost.steps as f64, effort(&ran.timing, false));
-        cheapest.get_or_insert((effort_s, count.max(1.0)));
+        cheapest.get_or_insert((effort_s, solves(&ran.record.cost)));
         let before = steps.last().map(|step| (step.ran.record.cost.steps as f64, effort(&step.ran.timing, false)));
         if before.is_some_and(|(before, _)| count < MORE * before) {
             steps.pop();
