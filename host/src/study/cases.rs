@@ -25,10 +25,16 @@ struct Track {
     last: Option<(f64, f64, f64)>,
     /// How much dearer it was than the one before.
     growth: f64,
-    /// Whether the last was unstable.
-    unstable: bool,
     open: bool,
     cases: Vec<Case>,
+}
+
+impl Track {
+    /// Whether the last of its cases that ran to its end was unstable.
+    fn is_unstable(&self) -> bool {
+        let ran = self.cases.iter().rev().find(|case| case.timing.is_some());
+        ran.is_some_and(|case| case.status == Status::Unstable)
+    }
 }
 
 /// The outcome of all lines.
@@ -65,8 +71,7 @@ pub(super) struct Field<'a> {
 impl Field<'_> {
     /// Runs the lines.
     pub(super) fn run(&self, lines: Vec<Line>, tell: &mut dyn FnMut(&str)) -> Found {
-        let track =
-            |line| Track { line, next: 0, last: None, growth: 2.0, unstable: false, open: true, cases: Vec::new() };
+        let track = |line| Track { line, next: 0, last: None, growth: 2.0, open: true, cases: Vec::new() };
         let mut tracks: Vec<Track> = lines.into_iter().map(track).collect();
         let (mut grids, mut ended, mut interrupted) = (Vec::new(), Vec::new(), false);
         while let Some(index) = self.cheapest(&tracks) {
@@ -97,7 +102,6 @@ impl Field<'_> {
                         track.growth = one / before.max(1e-9);
                     }
                     track.last = Some((planned.value, one, ran.record.cost.steps as f64));
-                    track.unstable = case.status == Status::Unstable;
                     if let Some(why) = self.seen_enough(track, &case) {
                         ended.push(why);
                         track.open = false;
@@ -132,11 +136,16 @@ impl Field<'_> {
         self.gathered(tracks, grids, ended, interrupted)
     }
 
-    /// What the next case of a line that the verdict needs is thought to take.
+    /// What has to be left for all runs of a case to begin, if one is thought to take so long.
+    fn room_s(&self, one_s: f64) -> f64 {
+        SURPRISE * self.budget.whole_case_s(one_s)
+    }
+
+    /// What has to be left for the next case of a line that the verdict needs.
     fn needed_s(&self, tracks: &[Track], track: &Track) -> Option<f64> {
         let ahead = track.line.cases.iter().skip(track.next).position(|case| case.needed);
         let ahead = ahead.filter(|_| track.open)?;
-        Some(self.predicted(tracks, track, track.next + ahead))
+        Some(self.room_s(self.predicted(tracks, track, track.next + ahead)))
     }
 
     /// Time that is kept for what the verdict needs.
@@ -158,7 +167,7 @@ impl Field<'_> {
             let for_others = if case.needed { 0.0 } else { all };
             // What the verdict needs, and what leads to it, comes before what costs as much.
             let weight = if self.needed_s(tracks, track).is_some() { FIRST } else { 1.0 };
-            (SURPRISE * self.budget.whole_case_s(one) <= left - for_others.min(left)).then_some((index, weight * one))
+            (self.room_s(one) <= left - for_others.min(left)).then_some((index, weight * one))
         });
         fitting.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     }
@@ -170,7 +179,7 @@ impl Field<'_> {
         // An explicit step solves the contact once; the others are tried with few steps first.
         let usual = wall_s / solves;
         if let Some((value, wall_s, _)) = track.last {
-            if track.unstable {
+            if track.is_unstable() {
                 return after_unstable(wall_s * next.value / value, usual * next.steps);
             }
             let times = match track.line.kind {
@@ -183,7 +192,7 @@ impl Field<'_> {
         }
         // Nothing of the line is known: its steps cost what those of its method, or of any, have cost so far.
         let each = |track: &Track| track.last.map(|(_, wall_s, steps)| wall_s / steps.max(1.0));
-        let alike = tracks.iter().filter(|other| other.line.method == track.line.method && !other.unstable);
+        let alike = tracks.iter().filter(|other| other.line.method == track.line.method && !other.is_unstable());
         let each = alike.filter_map(each).fold(f64::NAN, f64::min);
         let each = if each.is_nan() { usual } else { each };
         match track.line.kind {
