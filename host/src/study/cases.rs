@@ -3,6 +3,7 @@
 use super::budget::Budget;
 use super::frame::{Fields, Frame};
 use super::lines::{AT_LIMIT, Line, Planned};
+use super::pick::{Pick, Track};
 use super::setup::{How, Outcome, Ran, Setup, effort};
 use super::yardstick::Gauge;
 use crate::law::Evaluator;
@@ -12,31 +13,6 @@ use crate::record::{Case, Errors, Kind, Status, Work};
 pub(super) const RESOLVED: f64 = 3.0;
 /// A line that nobody gave values for ends below this error: two decades below what the verdict speaks of.
 const ENOUGH: f64 = 1e-6;
-/// Lines with a case that the verdict needs are run as if they cost so much of what they do.
-const FIRST: f64 = 0.1;
-/// What a case may take more than it was thought to take.
-const SURPRISE: f64 = 1.1;
-
-/// A line while it is run.
-struct Track {
-    line: Line,
-    next: usize,
-    /// Value, seconds of one run and steps of the last that ran.
-    last: Option<(f64, f64, f64)>,
-    /// How much dearer it was than the one before.
-    growth: f64,
-    open: bool,
-    cases: Vec<Case>,
-}
-
-impl Track {
-    /// Whether the last of its cases that ran to its end was unstable.
-    fn is_unstable(&self) -> bool {
-        let ran = self.cases.iter().rev().find(|case| case.timing.is_some());
-        ran.is_some_and(|case| case.status == Status::Unstable)
-    }
-}
-
 /// The outcome of all lines.
 #[derive(Default)]
 pub(super) struct Found {
@@ -71,16 +47,15 @@ pub(super) struct Field<'a> {
 impl Field<'_> {
     /// Runs the lines.
     pub(super) fn run(&self, lines: Vec<Line>, tell: &mut dyn FnMut(&str)) -> Found {
-        let track = |line| Track { line, next: 0, last: None, growth: 2.0, open: true, cases: Vec::new() };
-        let mut tracks: Vec<Track> = lines.into_iter().map(track).collect();
+        let mut tracks: Vec<Track> = lines.into_iter().map(Track::new).collect();
         let (mut grids, mut ended, mut interrupted) = (Vec::new(), Vec::new(), false);
-        while let Some(index) = self.cheapest(&tracks) {
+        while let Some(index) = self.pick().next(&tracks) {
             let planned = tracks[index].line.cases[tracks[index].next].clone();
             let line = &tracks[index].line;
             tell(&format!("{} {}", line.name, crate::study::verdict::value_words(line.kind, planned.value)));
             let law = if line.isolated { self.elsewhere.unwrap_or(self.here) } else { self.here };
             // A case that takes longer than was thought does not take what is kept for others.
-            let kept_s = if planned.needed { 0.0 } else { self.kept_s(&tracks) };
+            let kept_s = if planned.needed { 0.0 } else { self.pick().kept_s(&tracks) };
             let until = 1.0 - kept_s / self.budget.whole_s();
             let how = How { budget: self.budget, until, repeated: true, isolated: line.isolated };
             let begin = self.budget.spent_s();
@@ -136,70 +111,8 @@ impl Field<'_> {
         self.gathered(tracks, grids, ended, interrupted)
     }
 
-    /// What has to be left for all runs of a case to begin, if one is thought to take so long.
-    fn room_s(&self, one_s: f64) -> f64 {
-        SURPRISE * self.budget.whole_case_s(one_s)
-    }
-
-    /// What has to be left for the next case of a line that the verdict needs.
-    fn needed_s(&self, tracks: &[Track], track: &Track) -> Option<f64> {
-        let ahead = track.line.cases.iter().skip(track.next).position(|case| case.needed);
-        let ahead = ahead.filter(|_| track.open)?;
-        Some(self.room_s(self.predicted(tracks, track, track.next + ahead)))
-    }
-
-    /// Time that is kept for what the verdict needs.
-    fn kept_s(&self, tracks: &[Track]) -> f64 {
-        let left = self.budget.left_s();
-        // Time is kept for what can fit; keeping it for more would run nothing at all.
-        let kept = tracks.iter().filter_map(|track| self.needed_s(tracks, track));
-        let all: f64 = kept.filter(|one| *one <= left).sum();
-        if all > left { 0.0 } else { all }
-    }
-
-    /// The line whose next case is the cheapest of those that fit, time being kept for what the verdict needs.
-    fn cheapest(&self, tracks: &[Track]) -> Option<usize> {
-        let left = self.budget.left_s();
-        let all = self.kept_s(tracks);
-        let fitting = tracks.iter().enumerate().filter_map(|(index, track)| {
-            let case = track.line.cases.get(track.next).filter(|_| track.open)?;
-            let one = self.predicted(tracks, track, track.next);
-            let for_others = if case.needed { 0.0 } else { all };
-            // What the verdict needs, and what leads to it, comes before what costs as much.
-            let weight = if self.needed_s(tracks, track).is_some() { FIRST } else { 1.0 };
-            (self.room_s(one) <= left - for_others.min(left)).then_some((index, weight * one))
-        });
-        fitting.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
-    }
-
-    /// What a case of a line is thought to take; seconds of one run.
-    fn predicted(&self, tracks: &[Track], track: &Track, index: usize) -> f64 {
-        let next = &track.line.cases[index];
-        let (wall_s, solves) = self.gauge.cheapest;
-        // An explicit step solves the contact once; the others are tried with few steps first.
-        let usual = wall_s / solves;
-        if let Some((value, wall_s, _)) = track.last {
-            if track.is_unstable() {
-                return after_unstable(wall_s * next.value / value, usual * next.steps);
-            }
-            let times = match track.line.kind {
-                Kind::Substeps => next.value / value,
-                Kind::Scaling => value / next.value,
-                Kind::Grid => 1.3 * (next.value / value).powi(2),
-                Kind::Tolerance => track.growth.clamp(1.3, 10.0),
-            };
-            return wall_s * times;
-        }
-        // Nothing of the line is known: its steps cost what those of its method, or of any, have cost so far.
-        let each = |track: &Track| track.last.map(|(_, wall_s, steps)| wall_s / steps.max(1.0));
-        let alike = tracks.iter().filter(|other| other.line.method == track.line.method && !other.is_unstable());
-        let each = alike.filter_map(each).fold(f64::NAN, f64::min);
-        let each = if each.is_nan() { usual } else { each };
-        match track.line.kind {
-            Kind::Substeps | Kind::Scaling => each * next.steps,
-            Kind::Tolerance => each,
-            Kind::Grid => 0.1 * wall_s,
-        }
+    fn pick(&self) -> Pick<'_> {
+        Pick { budget: self.budget, left_s: self.budget.left_s(), cheapest: self.gauge.cheapest }
     }
 
     /// What a run shows.
@@ -263,7 +176,7 @@ impl Field<'_> {
             _ if track.line.given => format!("; with it {dearer} dearer ones"),
             _ => "; with it all dearer ones".to_owned(),
         };
-        let one = self.predicted(tracks, track, track.next);
+        let one = self.pick().predicted(tracks, track, track.next);
         let why = match interrupted {
             true => "interrupted".to_owned(),
             false => format!(
@@ -275,12 +188,6 @@ impl Field<'_> {
         case.status = Status::LeftOut(why + &rest);
         Some(case)
     }
-}
-
-/// What a case is thought to take after an unstable one, whose chequerboards take more rounds than stable steps do: at
-/// most what as many contact solves of the yardstick's cheapest run take.
-fn after_unstable(scaled_s: f64, usual_s: f64) -> f64 {
-    if usual_s > 0.0 { scaled_s.min(usual_s) } else { scaled_s }
 }
 
 /// A case that has not run.
@@ -314,16 +221,4 @@ fn on_grid(ran: &Ran) -> OnGrid {
 fn unresolved(errors: &Errors, stated: &Errors) -> Vec<String> {
     let small = |(name, error): &(&String, &f64)| stated.get(*name).is_some_and(|own| **error < RESOLVED * own);
     errors.iter().filter(small).map(|(name, _)| name.clone()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_unstable_steps_cost_does_not_keep_stable_ones_out() {
-        assert_eq!(after_unstable(480.0, 30.0), 30.0);
-        assert_eq!(after_unstable(2.0, 30.0), 2.0);
-        assert_eq!(after_unstable(2.0, 0.0), 2.0, "nothing is known of the yardstick");
-    }
 }
