@@ -282,6 +282,34 @@ fn cycles_are_scaled_and_laws_may_all_run_apart() {
 }
 
 #[test]
+fn methods_that_a_law_refuses_are_told_once() {
+    let here = folder();
+    let running_in = scene("fretting_running_in.toml");
+    let ended = run(here.path(), &["study", &running_in, "--budget", "10s", "--methods", "tr-bdf2,sdirk2,auto"]);
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let (_, after) = ended.stdout.split_once("\nrefused\n").unwrap_or_else(|| panic!("{}", ended.stdout));
+    let refused = after.split("\n\n").next().expect("a block").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(refused.starts_with("- tr-bdf2, tr-bdf2 to a tolerance: found method \"tr-bdf2\", but law"), "{refused}");
+    assert!(refused.contains("- sdirk2, sdirk2 to a tolerance: found method \"sdirk2\""), "{refused}");
+    assert_eq!(ended.stdout.matches("found method \"").count(), 2, "{}", ended.stdout);
+}
+
+#[test]
+fn an_error_of_0_is_in_the_picture() {
+    let here = folder();
+    let pin = "[law]\nuse = \"archard\"\nconstants = { K = 0.5, H = 1.0 }\n[contact]\nmodel = \"prescribed\"\n\
+        [[step]]\nduration = 1.0\npressure = 1.0\nvelocity = 1.0\n[reference]\nkind = \"archard-prescribed\"\n";
+    write(here.path(), "scene.toml", pin);
+    let words =
+        ["scene.toml", "--only", "substeps", "--methods", "explicit-euler", "--substeps", "1,2", "--budget", "5s"];
+    let document = study(here.path(), &words);
+    let lines = line(&document, "explicit-euler");
+    assert!(!lines.is_empty() && lines.iter().all(|case| case["errors"]["wear_l2_relative"] == 0.0), "{document}");
+    let picture = std::fs::read_to_string(here.path().join("scene.study/study.svg")).expect("a picture");
+    assert!(picture.contains("\nexplicit-euler\n") && picture.contains("errors of 0 are drawn at 1e-16"), "{picture}");
+}
+
+#[test]
 fn what_a_scene_does_not_have_is_refused() {
     let here = folder();
     write(here.path(), "scene.toml", LINE);

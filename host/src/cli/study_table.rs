@@ -89,7 +89,18 @@ fn rows(console: &Console, study: &StudyRecord) -> String {
     let mut shown = "";
     let mut block: Vec<Vec<String>> = Vec::new();
     let mut tail: Vec<String> = Vec::new();
+    let mut refused: Vec<(&str, Vec<&str>)> = Vec::new();
     for (index, case) in study.cases.iter().enumerate() {
+        // A line that never began has no table; one reason mostly holds for several.
+        if let Status::Refused(reason) = &case.status
+            && case.line != shown
+        {
+            match refused.iter_mut().find(|(other, _)| *other == reason.as_str()) {
+                Some((_, lines)) => lines.push(&case.line),
+                None => refused.push((reason, vec![&case.line])),
+            }
+            continue;
+        }
         if case.line != shown {
             flush(&mut text, &mut block, &mut tail);
             shown = &case.line;
@@ -113,6 +124,12 @@ fn rows(console: &Console, study: &StudyRecord) -> String {
         }
     }
     flush(&mut text, &mut block, &mut tail);
+    if !refused.is_empty() {
+        text.push_str(&format!("\n{}\n", console.headline("refused")));
+    }
+    for (reason, lines) in refused {
+        text.push_str(&labelled("-", &format!("{}: {reason}", lines.join(", ")), 2, WIDTH));
+    }
     text
 }
 

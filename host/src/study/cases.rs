@@ -176,13 +176,15 @@ impl Field<'_> {
             _ if track.line.given => format!("; with it {dearer} dearer ones"),
             _ => "; with it all dearer ones".to_owned(),
         };
-        let one = self.pick().predicted(tracks, track, track.next);
+        let pick = self.pick();
+        let one = pick.predicted(tracks, track, track.next);
+        let kept = !planned.needed && left > one && pick.kept_s(tracks) > 0.0;
         let why = match interrupted {
             true => "interrupted".to_owned(),
             false => format!(
                 "thought to take {:.3} s, {left:.3} s of the budget left{}",
                 self.budget.whole_case_s(one),
-                if planned.needed || left <= one { "" } else { ", some of it kept for stable explicit runs" }
+                if kept { ", some of it kept for stable explicit runs" } else { "" }
             ),
         };
         case.status = Status::LeftOut(why + &rest);

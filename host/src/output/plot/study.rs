@@ -46,10 +46,13 @@ pub(in crate::output) fn study_svg(study: &StudyRecord, path: &Path) -> Result<S
     draw(study).map_err(|source| OutputError::Drawing { path: path.into(), source: source.into() })
 }
 
+/// Where an error of 0 is drawn, which has no decade.
+const NOTHING: f64 = 1e-16;
+
 /// A case as a point: run time and error.
 fn point(case: &Case, study: &StudyRecord) -> Option<(f64, f64)> {
     let (time, error) = (case.time(study.clock)?, *case.errors.get(&study.norm)?);
-    (time > 0.0 && error > 0.0 && error.is_finite()).then_some((time, error))
+    (time > 0.0 && error >= 0.0 && error.is_finite()).then_some((time, if error == 0.0 { NOTHING } else { error }))
 }
 
 /// Two axes with their place on the sheet.
@@ -172,8 +175,11 @@ fn main(sheet: &Sheet<'_>, study: &StudyRecord) -> Result<(), DrawingFailure> {
         let place = (MAIN.left + 8.0, top + 10.0);
         write(sheet, "below three times the yardstick's own error", place, Style::left(11.0, QUIET))?;
     }
-    level(sheet, &axes, study)?;
+    if lines.iter().flatten().any(|(_, case)| case.errors.get(&study.norm) == Some(&0.0)) {
+        write(sheet, "errors of 0 are drawn at 1e-16", (MAIN.right, MAIN.top - 16.0), Style::right(11.0))?;
+    }
     front(sheet, &axes, study)?;
+    level(sheet, &axes, study)?;
     let (mut row, mut crossed) = (LEGEND.1, false);
     for line in &lines {
         let mark = Mark::of(line[0].1);
