@@ -6,7 +6,7 @@ mod sources;
 use std::path::Path;
 
 /// Each module of the program's own crate and the others that it may name; the crates below it are modules to it.
-const MAY_USE: [(&str, &[&str]); 14] = [
+const MAY_USE: [(&str, &[&str]); 15] = [
     ("apdl", &["scene"]),
     ("reference", &[]),
     ("record", &[]),
@@ -20,6 +20,7 @@ const MAY_USE: [(&str, &[&str]); 14] = [
     ("study", &["scene", "law", "integrator", "plan", "solve", "record", "reference"]),
     // Its tests read the scene that it writes.
     ("templates", &["scene", "law"]),
+    ("shim", &["law"]),
     ("error", ALL_BUT_CLI),
     ("exit_code", ALL_BUT_CLI),
 ];
@@ -54,6 +55,7 @@ const ALL_BUT_CLI: &[&str] = &[
     "record",
     "reference",
     "scene",
+    "shim",
     "solve",
     "stability",
     "study",

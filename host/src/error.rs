@@ -17,6 +17,7 @@ use crate::output::OutputError;
 use crate::plan::{PlanError, PlanProblem};
 use crate::record::Difference;
 use crate::scene::{Located, Location, SceneError};
+use crate::shim::ShimError;
 use crate::solve::SolveError;
 use crate::study::StudyError;
 use crate::sweep::SweepError;
@@ -45,6 +46,9 @@ pub enum Error {
     /// The name of a law leads nowhere; at the scene's key where it stands in one.
     #[error(transparent)]
     Lookup(#[from] Located<LookupError>),
+    /// No user subroutine can call the law.
+    #[error(transparent)]
+    Shim(#[from] ShimError),
     /// A law could not be built.
     #[error(transparent)]
     Build(#[from] BuildError),
@@ -148,6 +152,12 @@ pub enum UsageError {
         name: String,
         /// The commands.
         known: Vec<String>,
+    },
+    /// `--params` that name nothing.
+    #[error("--params: {what}")]
+    Parameters {
+        /// What was found, and what was expected.
+        what: String,
     },
     /// `--static` for a law that is no file.
     #[error("`{law}` is part of this program, so there is no file for --static to read")]

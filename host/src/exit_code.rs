@@ -100,9 +100,12 @@ impl ExitCode {
                 DeckError::Read { cause, .. } => of_reading(cause.kind()),
                 _ => Self::InputWrong,
             },
-            Error::Resume(_) | Error::Instructions(_) | Error::Lower { .. } | Error::Usage(_) | Error::Lookup(_) => {
-                Self::InputWrong
-            }
+            Error::Resume(_)
+            | Error::Instructions(_)
+            | Error::Lower { .. }
+            | Error::Usage(_)
+            | Error::Lookup(_)
+            | Error::Shim(_) => Self::InputWrong,
             Error::Build(error) => of_build(error),
             Error::File(error) => of_file(error),
             Error::LawFile(error) => of_file(&error.problem),

@@ -75,6 +75,9 @@ pub(super) enum Command {
     /// Measure laws by themselves: ns per point, part of the memory's bandwidth, accuracy; one column per law
     #[command(after_long_help = MEASURING)]
     Bench(BenchArguments),
+    /// Write a user subroutine in Fortran that loads a law and calls it, for a solver that calls no libraries
+    #[command(after_long_help = super::shim_args::SHIMS)]
+    Shim(super::shim_args::ShimArguments),
     /// Turn the TB,WEAR commands of an input deck into the law section of a scene
     Apdl(ApdlArguments),
     /// Print the completions of a shell
@@ -182,6 +185,12 @@ pub(super) struct BuildArguments {
     /// The library to write [default: lib + the first source's name, here]
     #[arg(short, long, value_name = "LIB")]
     pub(super) output: Option<PathBuf>,
+    /// The first source holds a user subroutine of another solver, which becomes a law as it stands
+    #[arg(long, value_name = "FORM", value_parser = ["uwearindex"])]
+    pub(super) adapt: Option<String>,
+    /// Names of the elements of the subroutine's `param`, each with its unit where it has one: K,H:pascal
+    #[arg(long, value_name = "NAMES", requires = "adapt")]
+    pub(super) params: Option<String>,
 }
 
 #[derive(Debug, Clone, Args)]

@@ -8,15 +8,21 @@ use super::inspect::{plugin_json, plugin_text};
 use super::interrupt::Interrupt;
 use super::opening::opened_library;
 use super::unit_text::elapsed;
-use crate::error::Error;
+use crate::error::{Error, UsageError};
 use crate::exit_code::ExitCode;
+use crate::law::build::adapt::Adaptation;
 use crate::law::build::{BuildError, BuildRequest, Built, build};
 
 pub(super) fn command(console: &Console, arguments: &BuildArguments) -> Result<ExitCode, Error> {
     let interrupt = Interrupt::watch();
+    let adaptation = arguments.adapt.as_deref().map(|form| {
+        let parameters = arguments.params.as_deref().unwrap_or_default();
+        Adaptation::parse(form, parameters).map_err(|what| UsageError::Parameters { what })
+    });
     let request = BuildRequest {
         sources: arguments.sources.clone(),
         output: arguments.output.clone(),
+        adaptation: adaptation.transpose()?,
         ..BuildRequest::default()
     };
     let built = interrupt.over(compiled(console, &request))?;

@@ -22,6 +22,8 @@ mod plan;
 mod progress;
 mod restart;
 mod run;
+mod shim;
+mod shim_args;
 mod stability;
 mod standard_output;
 mod study;
@@ -92,6 +94,7 @@ fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
         Command::Inspect(arguments) => inspect::command(console, &arguments),
         Command::Check(arguments) => check::command(console, &arguments),
         Command::Bench(arguments) => bench::command(console, &arguments),
+        Command::Shim(arguments) => shim::command(console, &arguments),
         Command::Apdl(arguments) => apdl::command(console, &arguments),
         Command::Completions(arguments) => pages::completions(console, &arguments),
         Command::Man(arguments) => pages::man(console, &arguments),

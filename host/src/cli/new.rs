@@ -33,7 +33,11 @@ pub(super) fn command(console: &Console, arguments: &NewArguments) -> Result<Exi
         let folder = arguments.folder.display();
         let law = format!("{folder}/{}", created.files[0]);
         let commands: String = created.commands.iter().map(|command| format!("  {command}\n")).collect();
-        let then = format!("and, when you have changed it, `{}`: what is wrong with it.\n", created.check);
+        let then = format!(
+            "and, when you have changed it, `{}`: what is wrong with it. Other constants than these stand in expected.csv, \
+             scene.toml and README.md too.\n",
+            created.check
+        );
         console.result(&format!("{law} is a working law in {}. Type next:\n\n{commands}\n{then}", wanted.language))?;
     }
     Ok(ExitCode::Done)

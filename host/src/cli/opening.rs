@@ -99,7 +99,7 @@ pub(super) fn open(
 }
 
 /// Says how a scene names one of several laws.
-fn several(error: LoadError, origin: &str) -> Error {
+pub(super) fn several(error: LoadError, origin: &str) -> Error {
     match error {
         LoadError::Ambiguous { known, .. } => UsageError::SeveralLaws { origin: origin.to_owned(), known }.into(),
         other => other.into(),

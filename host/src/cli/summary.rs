@@ -108,7 +108,11 @@ fn estimated(estimate: &Estimate) -> String {
     let known: Vec<String> = named.into_iter().filter_map(|(name, text)| Some(format!("{name} {}", text?))).collect();
     let known = if known.is_empty() { "not known".to_owned() } else { known.join(", ") };
     let without: String = estimate.without.iter().map(|what| format!("; without {what}")).collect();
-    format!("{known}, relative, in {}{without}", elapsed(estimate.time_s))
+    let more = match estimate.time_s > 0.0 {
+        true => format!("; the estimate took {} more", elapsed(estimate.time_s)),
+        false => String::new(),
+    };
+    format!("{known}, relative{more}{without}")
 }
 
 /// Six figures, without zeros that say nothing.

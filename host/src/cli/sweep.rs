@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use rayon::prelude::*;
 use serde_json::json;
 
 use super::args::{SceneArguments, SweepArguments};
@@ -27,6 +27,8 @@ use crate::scene::{Override, Scene};
 use crate::solve::{Estimate, Run, SolveError};
 use crate::sweep::{Case, Found, RESULTS, Row, Shard, Sweep, Vary, read_row, write_row, write_table};
 
+/// Stack of a thread that runs cases: as much as the program's own.
+const STACK: usize = 8 << 20;
 /// Failed cases that the summary names; all are in the table.
 const NAMED: usize = 10;
 
@@ -39,9 +41,8 @@ pub(super) fn command(console: &Console, arguments: &SweepArguments) -> Result<E
     let shard = arguments.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse)?;
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.scene));
     let folder = sweep_folder(&out)?;
-    let threads = arguments.threads.map_or(0, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| Error::Threads { threads, reason: error.to_string() })?;
+    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = arguments.threads.map_or_else(cores, usize::from);
     let mine: Vec<usize> = (1..=sweep.count()).filter(|case| shard.has(*case)).collect();
     let work = Work {
         console,
@@ -54,13 +55,13 @@ pub(super) fn command(console: &Console, arguments: &SweepArguments) -> Result<E
         bar: bar(console, mine.len()),
     };
     let begin = Instant::now();
-    let done: Vec<Done> = pool.install(|| mine.par_iter().map(|case| work.done(*case)).collect::<Result<_, _>>())?;
+    let done = work.all(&mine, threads)?;
     work.bar.finish_and_clear();
     let wall = begin.elapsed();
     let rows = rows(&sweep, &folder)?;
     let table = out.join("cases.csv");
     write_table(&sweep, &rows, &table)?;
-    let told = Told { sweep: &sweep, done: &done, rows: &rows, wall, threads: pool.current_num_threads(), table };
+    let told = Told { sweep: &sweep, done: &done, rows: &rows, wall, threads, table };
     told.tell(console, &arguments.scene)?;
     Ok(match () {
         () if interrupt.asked() => ExitCode::Interrupted,
@@ -118,6 +119,38 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
+    /// Sees to all cases, each thread to one at a time: in a pool of threads a case that waits for its own pool would begin
+    /// another, and the times of both would be in each.
+    fn all(&self, mine: &[usize], threads: usize) -> Result<Vec<Done>, Error> {
+        let next = AtomicUsize::new(0);
+        let one_by_one = || {
+            let mut done = Vec::new();
+            while let Some(case) = mine.get(next.fetch_add(1, Ordering::Relaxed)) {
+                match self.done(*case) {
+                    Ok(found) => done.push(found),
+                    Err(error) => {
+                        next.store(mine.len(), Ordering::Relaxed);
+                        return Err(error);
+                    }
+                }
+            }
+            Ok(done)
+        };
+        std::thread::scope(|scope| {
+            let mut started = Vec::new();
+            for number in 0..threads.min(mine.len()) {
+                let thread = std::thread::Builder::new().name(format!("case {number}"));
+                let thread = thread.stack_size(STACK).spawn_scoped(scope, one_by_one);
+                started.push(thread.map_err(|error| Error::Threads { threads, reason: error.to_string() })?);
+            }
+            let mut done = Vec::new();
+            for thread in started {
+                done.extend(thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?);
+            }
+            Ok(done)
+        })
+    }
+
     /// Sees to one case. Only what is wrong with the sweep itself is an error.
     fn done(&self, number: usize) -> Result<Done, Error> {
         if self.interrupt.asked() {

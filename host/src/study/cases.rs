@@ -173,6 +173,7 @@ impl Field<'_> {
         let dearer = track.line.cases.len() - track.next - 1;
         let rest = match dearer {
             0 => String::new(),
+            1 if track.line.given => "; with it a dearer one".to_owned(),
             _ if track.line.given => format!("; with it {dearer} dearer ones"),
             _ => "; with it all dearer ones".to_owned(),
         };

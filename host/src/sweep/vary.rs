@@ -39,6 +39,11 @@ impl Vary {
 
 /// The values of a range; `None`: it is a list.
 fn range(text: &str) -> Option<Result<Vec<String>, String>> {
+    // Numbers with colons between them, as other programs have ranges, or a range without a count, are no values of a list.
+    let all_numbers = |between: &str| text.split(between).all(|one| one.trim().parse::<f64>().is_ok());
+    if text.contains(':') && !text.contains("..") && all_numbers(":") || text.contains("..") && all_numbers("..") {
+        return Some(Err(format!("`{text}`")));
+    }
     let (first, rest) = text.split_once("..")?;
     let (last, rest) = rest.split_once(':')?;
     let first: f64 = first.trim().parse().ok()?;
@@ -124,9 +129,20 @@ mod tests {
 
     #[test]
     fn what_is_no_variation_says_so() {
-        for text in
-            ["", "a", "=1", "a=", "a=1,,2", "a=1..2:1", "a=1..2:x", "a=1..2:3:lin", "a=0..1:3:log", "a=1..inf:2"]
-        {
+        for text in [
+            "",
+            "a",
+            "=1",
+            "a=",
+            "a=1,,2",
+            "a=1:2:3",
+            "a=1..2",
+            "a=1..2:1",
+            "a=1..2:x",
+            "a=1..2:3:lin",
+            "a=0..1:3:log",
+            "a=1..inf:2",
+        ] {
             let error = Vary::parse(text).unwrap_err().to_string();
             assert!(error.starts_with(&format!("--vary {text}: found ")) && error.contains("expected KEY="), "{error}");
         }

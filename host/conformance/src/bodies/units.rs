@@ -208,8 +208,8 @@ fn unlike(
     (name, found, wanted): (&str, Option<f64>, f64),
 ) -> Finding {
     let what = format!(
-        "in {} the law answers otherwise: a quantity has another unit than it says, or a number with a unit is hidden in \
-         the law",
+        "in {} the law answers otherwise: a quantity has another unit than it says, a number with a unit is hidden in the \
+         law, or an exponent other than 1 gives a constant another unit: that one closes the units",
         sizes_text(sizes)
     );
     let found =

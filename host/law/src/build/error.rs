@@ -72,7 +72,7 @@ pub enum BuildError {
         source: cc::Error,
     },
     /// The compiler said no.
-    #[error("compiling failed: `{command}` ended with {}, expected 0", exit_words(*exit_code))]
+    #[error("compiling failed: `{command}` ended with {}", exit_words(*exit_code))]
     CompilerFailed {
         /// The command, as one would type it.
         command: String,
@@ -96,6 +96,14 @@ pub enum BuildError {
         path: PathBuf,
         /// What the operating system said.
         source: std::io::Error,
+    },
+    /// A source that holds no subroutine of the form that was asked for.
+    #[error("source `{path}` cannot be made a law: {what}")]
+    NoSubroutine {
+        /// The source.
+        path: PathBuf,
+        /// What was found, and what was expected.
+        what: String,
     },
     /// A crate that is no shared library.
     #[error("the Rust crate `{manifest}` gives no shared library, expected [lib] crate-type = [\"cdylib\"] in it")]

@@ -1,8 +1,9 @@
 //! From the sources of a wear law to a library.
 //!
-//! C, C++ and Fortran sources go through the system's compilers with the headers that this program carries; a
-//! Rust crate goes through cargo. A library appears whole, under its name, or not at all. Loading it is not here.
+//! C, C++ and Fortran sources go through the system's compilers with the headers that this program carries, user
+//! subroutines of other solvers with a layer around them (`adapt`); a Rust crate goes through cargo. A library appears whole, under its name, or not at all. Loading it is not here.
 
+pub mod adapt;
 mod cargo;
 mod command;
 mod error;
@@ -35,6 +36,8 @@ pub struct BuildRequest {
     pub extra_flags: Vec<OsString>,
     /// Compilers to use.
     pub compilers: Compilers,
+    /// The first source holds a user subroutine of another solver, which becomes a law.
+    pub adaptation: Option<adapt::Adaptation>,
 }
 
 /// Commands to use instead of the usual compilers; a command may carry flags behind blanks.
@@ -75,6 +78,10 @@ pub fn build(request: &BuildRequest) -> Result<Built, BuildError> {
     let start = Instant::now();
     let what = language::sort(&request.sources)?;
     let (library, log) = match what {
+        language::Sources::RustCrate(manifest) if request.adaptation.is_some() => {
+            let what = "found a Rust crate, expected a Fortran source".to_owned();
+            return Err(BuildError::NoSubroutine { path: manifest, what });
+        }
         language::Sources::RustCrate(manifest) => cargo::build(request, &manifest)?,
         language::Sources::Native(sources) => native::build(request, &sources)?,
     };

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use super::adapt::Adaptation;
 use super::command::Log;
 use super::{Aside, BuildError, BuildRequest, Language, headers, library_file_name};
 
@@ -19,6 +20,7 @@ const FORTRAN_FLAGS: [&str; 3] = ["-nostdinc", "-Wno-unused-dummy-argument", "-f
 /// Compiles each source with its language's compiler and links the objects.
 pub(super) fn build(request: &BuildRequest, sources: &[(PathBuf, Language)]) -> Result<(PathBuf, Log), BuildError> {
     let output = request.output.clone().unwrap_or_else(|| default_output(&sources[0].0));
+    let layer = request.adaptation.as_ref().map(|adaptation| layer(adaptation, &sources[0])).transpose()?;
     let aside = Aside::new(&output)?;
     let temporary = tempfile::Builder::new().prefix("wearlaw-build-").tempdir();
     let temporary = temporary.map_err(|source| BuildError::TemporaryFiles { path: std::env::temp_dir(), source })?;
@@ -40,6 +42,12 @@ pub(super) fn build(request: &BuildRequest, sources: &[(PathBuf, Language)]) -> 
     for (source, language) in sources {
         objects.push(toolchain.compile(&mut log, source, *language, objects.len())?);
     }
+    if let Some(layer) = layer {
+        let source = work.join("layer.c");
+        std::fs::write(&source, layer)
+            .map_err(|source| BuildError::TemporaryFiles { path: work.to_path_buf(), source })?;
+        objects.push(toolchain.compile(&mut log, &source, Language::C, objects.len())?);
+    }
     let driver = [Language::Fortran, Language::Cpp].into_iter().find(|&l| has(l)).unwrap_or(Language::C);
     let mut link = toolchain.driver(driver)?;
     link.arg("-shared").arg("-o").arg(aside.library()).args(&objects);
@@ -55,6 +63,19 @@ pub(super) fn build(request: &BuildRequest, sources: &[(PathBuf, Language)]) -> 
     link.arg("-lm").args(&request.extra_flags);
     log.run(link, driver)?;
     Ok((aside.finish()?, log))
+}
+
+/// The layer around the subroutine in a source; the law has the source's name.
+fn layer(adaptation: &Adaptation, (source, language): &(PathBuf, Language)) -> Result<String, BuildError> {
+    if *language != Language::Fortran {
+        let what = format!("found {language} by its ending, expected Fortran");
+        return Err(BuildError::NoSubroutine { path: source.clone(), what });
+    }
+    let bytes =
+        std::fs::read(source).map_err(|error| BuildError::SourceUnreadable { path: source.clone(), source: error })?;
+    let name = source.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let name: String = name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' }).collect();
+    adaptation.layer(source, &String::from_utf8_lossy(&bytes), &name)
 }
 
 struct Toolchain<'a> {

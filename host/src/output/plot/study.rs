@@ -15,7 +15,7 @@ use marks::{Mark, cross};
 use plotters::drawing::IntoDrawingArea;
 use plotters::element::Rectangle;
 use plotters::prelude::SVGBackend;
-use plotters::style::{RGBColor, ShapeStyle};
+use plotters::style::{Color, RGBColor, ShapeStyle, WHITE};
 use std::io::Write;
 use std::path::Path;
 
@@ -179,7 +179,7 @@ fn main(sheet: &Sheet<'_>, study: &StudyRecord) -> Result<(), DrawingFailure> {
         write(sheet, "errors of 0 are drawn at 1e-16", (MAIN.right, MAIN.top - 16.0), Style::right(11.0))?;
     }
     front(sheet, &axes, study)?;
-    level(sheet, &axes, study)?;
+    let level = level(sheet, &axes, study)?;
     let (mut row, mut crossed) = (LEGEND.1, false);
     for line in &lines {
         let mark = Mark::of(line[0].1);
@@ -207,21 +207,27 @@ fn main(sheet: &Sheet<'_>, study: &StudyRecord) -> Result<(), DrawingFailure> {
         super::panel::line(sheet, &[(LEGEND.0, row), (LEGEND.0 + 40.0, row)], FRONT, 5.0)?;
         write(sheet, "Pareto front: nothing stable beats it", (LEGEND.0 + 50.0, row), Style::left(12.5, INK))?;
     }
-    Ok(())
+    // Above the lines that may run through it.
+    let Some((words, y)) = level else { return Ok(()) };
+    let width = 5.8 * words.chars().count() as f64;
+    let [left, right] = [MAIN.right - 6.0 - width, MAIN.right - 2.0];
+    let paper = ShapeStyle::from(WHITE.mix(0.8)).filled();
+    sheet.draw(&Rectangle::new([fine((left, y - 16.0)), fine((right, y - 3.0))], paper))?;
+    write(sheet, words, (MAIN.right - 4.0, y - 9.0), Style::right(11.0))
 }
 
-/// A dotted line where the grid's own error lies.
-fn level(sheet: &Sheet<'_>, axes: &Axes, study: &StudyRecord) -> Result<(), DrawingFailure> {
+/// A dotted line where the grid's own error lies; its words, and how high it is.
+fn level(sheet: &Sheet<'_>, axes: &Axes, study: &StudyRecord) -> Result<Option<(&'static str, f64)>, DrawingFailure> {
     let measured = study.yardstick.measured.get(&study.norm);
     let estimated = study.grid.as_ref().and_then(|grid| grid.estimated.get(&study.norm));
     let (Some(error), words) = (match measured {
         Some(_) => (measured, "the grid's own error, against the exact answer"),
         None => (estimated, "the grid's own error, estimated"),
     }) else {
-        return Ok(());
+        return Ok(None);
     };
     if !axes.up.holds(*error) {
-        return Ok(());
+        return Ok(None);
     }
     let (_, y) = axes.at((1.0, *error));
     let points = vec![fine((MAIN.left, y)), fine((MAIN.right, y))];
@@ -232,7 +238,7 @@ fn level(sheet: &Sheet<'_>, axes: &Axes, study: &StudyRecord) -> Result<(), Draw
         super::panel::stroke(QUIET, 1.25),
     );
     sheet.draw(&dots)?;
-    write(sheet, words, (MAIN.right - 4.0, y - 9.0), Style::right(11.0))
+    Ok(Some((words, y)))
 }
 
 /// The stair of what nothing stable beats.
