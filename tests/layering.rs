@@ -6,7 +6,7 @@ mod sources;
 use std::path::Path;
 
 /// Each module of the program's own crate and the others that it may name; the crates below it are modules to it.
-const MAY_USE: [(&str, &[&str]); 15] = [
+const MAY_USE: [(&str, &[&str]); 16] = [
     ("apdl", &["scene"]),
     ("reference", &[]),
     ("record", &[]),
@@ -21,6 +21,7 @@ const MAY_USE: [(&str, &[&str]); 15] = [
     // Its tests read the scene that it writes.
     ("templates", &["scene", "law"]),
     ("shim", &["law"]),
+    ("fit", &["scene", "law", "plan", "solve", "record"]),
     ("error", ALL_BUT_CLI),
     ("exit_code", ALL_BUT_CLI),
 ];
@@ -48,6 +49,7 @@ const ALL_BUT_CLI: &[&str] = &[
     "contact",
     "error",
     "exit_code",
+    "fit",
     "integrator",
     "law",
     "output",

@@ -8,6 +8,7 @@ use crate::conformance::ConformanceError;
 use crate::contact::InstructionsError;
 use crate::contact::prescribed::HistoryError;
 use crate::exit_code::ExitCode;
+use crate::fit::FitError;
 use crate::law::build::BuildError;
 use crate::law::file_facts::FileFactsError;
 use crate::law::isolate::IsolateError;
@@ -46,6 +47,9 @@ pub enum Error {
     /// The name of a law leads nowhere; at the scene's key where it stands in one.
     #[error(transparent)]
     Lookup(#[from] Located<LookupError>),
+    /// No constants were found from measurements.
+    #[error(transparent)]
+    Fit(#[from] FitError),
     /// No user subroutine can call the law.
     #[error(transparent)]
     Shim(#[from] ShimError),

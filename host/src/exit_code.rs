@@ -8,6 +8,7 @@ use crate::conformance::ConformanceError;
 use crate::contact::prescribed::HistoryError;
 use crate::contact::surface::SurfaceError;
 use crate::error::Error;
+use crate::fit::FitError;
 use crate::integrator::AdvanceError;
 use crate::law::EvaluateError;
 use crate::law::LoadError;
@@ -143,6 +144,7 @@ impl ExitCode {
                 StudyError::Yardstick(_) => Self::NumbersFailed,
                 _ => Self::InputWrong,
             },
+            Error::Fit(error) => of_fitting(error),
             Error::Template(error) if error.is_io() => Self::ReadWriteFailed,
             Error::Template(_) => Self::InputWrong,
             Error::Stdout(_) | Error::Temporary { .. } | Error::Threads { .. } => Self::ReadWriteFailed,
@@ -263,6 +265,18 @@ fn of_build(error: &BuildError) -> ExitCode {
         BuildError::SourceUnreadable { source, .. } => of_reading(source.kind()),
         BuildError::OutputNotWritable { source, .. } => of_reading(source.kind()),
         BuildError::TemporaryFiles { .. } | BuildError::NotStarted { .. } => ExitCode::ReadWriteFailed,
+        _ => ExitCode::InputWrong,
+    }
+}
+
+fn of_fitting(error: &FitError) -> ExitCode {
+    match error {
+        FitError::Read { source, .. } => match source.kind() {
+            csv::ErrorKind::Io(error) => of_reading(error.kind()),
+            _ => ExitCode::InputWrong,
+        },
+        FitError::Run { .. } | FitError::Search(_) => ExitCode::NumbersFailed,
+        FitError::Interrupted => ExitCode::Interrupted,
         _ => ExitCode::InputWrong,
     }
 }

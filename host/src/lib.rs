@@ -4,7 +4,7 @@
 //! (what happened), [`output`] (its readers). [`law`] loads and calls wear laws, [`contact`] gives what drives them,
 //! [`conformance`] checks whether a law keeps its contract and [`mod@bench`] measures one by itself, [`integrator`] advances
 //! wear in time, [`apdl`] reads the commands of an input deck, [`mod@reference`] holds exact answers, [`study`](mod@study) runs
-//! a scene in many ways and [`mod@sweep`] many cases of one; [`shim`] writes user subroutines that call a law. [`cli`] is the program. The book (`host/book` in the repository)
+//! a scene in many ways and [`mod@sweep`] many cases of one; [`mod@fit`] finds constants from measurements; [`shim`] writes user subroutines that call a law. [`cli`] is the program. The book (`host/book` in the repository)
 //! shows on its page on embedding how a program of one's own runs a scene.
 
 pub mod apdl;
@@ -12,6 +12,7 @@ pub mod bench;
 pub mod cli;
 pub mod error;
 pub mod exit_code;
+pub mod fit;
 pub mod integrator;
 pub mod output;
 pub mod plan;

@@ -63,6 +63,9 @@ pub(super) enum Command {
     /// is listed. Writes study.csv, study.json and study.svg.
     #[command(after_long_help = STUDYING)]
     Study(StudyArguments),
+    /// Find constants of a law from measurements: what a scene says of wear comes as near to them as it can
+    #[command(after_long_help = super::fit_args::FITTING)]
+    Fit(super::fit_args::FitArguments),
     /// Compile sources or a Rust crate into a wear-law library
     Build(BuildArguments),
     /// Make a folder with a working wear law of your own to start from
@@ -84,7 +87,7 @@ pub(super) enum Command {
     #[command(after_long_help = COMPLETING)]
     Completions(CompletionsArguments),
     /// Print the manual page of the program or of a command, for `man -l -`
-    Man(ManArguments),
+    Man(super::pages::ManArguments),
 }
 
 /// What `run` and `plan` share.
@@ -335,12 +338,6 @@ pub(super) struct CompletionsArguments {
     /// The shell
     #[arg(value_enum)]
     pub(super) shell: clap_complete::Shell,
-}
-
-#[derive(Debug, Clone, Args)]
-pub(super) struct ManArguments {
-    /// The command [default: the program as a whole]
-    pub(super) command: Option<String>,
 }
 
 const FIRST_STEPS: &str = "\

@@ -11,6 +11,8 @@ mod build;
 mod check;
 mod console;
 mod description;
+mod fit;
+mod fit_args;
 mod guard;
 mod inspect;
 mod interrupt;
@@ -88,6 +90,7 @@ fn dispatch(console: &Console, command: Command) -> Result<ExitCode, Error> {
         Command::Sweep(arguments) => sweep::command(console, &arguments),
         Command::Stability(arguments) => stability::command(console, arguments),
         Command::Study(arguments) => study::command(console, arguments),
+        Command::Fit(arguments) => fit::command(console, &arguments),
         Command::Plan(arguments) => plan::command(console, arguments),
         Command::Build(arguments) => build::command(console, &arguments),
         Command::New(arguments) => new::command(console, &arguments),

@@ -1,11 +1,18 @@
 //! `wearlaw completions SHELL` and `wearlaw man [COMMAND]`: what a shell and `man` want to know of the command line.
 
-use clap::{Command, CommandFactory};
+use clap::{Args, Command, CommandFactory};
 
-use super::args::{Arguments, CompletionsArguments, ManArguments};
+use super::args::{Arguments, CompletionsArguments};
 use super::console::Console;
 use crate::error::{Error, UsageError};
 use crate::exit_code::ExitCode;
+
+/// What `wearlaw man` is asked for.
+#[derive(Debug, Clone, Args)]
+pub(super) struct ManArguments {
+    /// The command [default: the program as a whole]
+    pub(super) command: Option<String>,
+}
 
 /// Prints the completions of a shell, as it wants to read them.
 pub(super) fn completions(console: &Console, arguments: &CompletionsArguments) -> Result<ExitCode, Error> {

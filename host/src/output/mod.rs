@@ -7,6 +7,7 @@ pub mod checkpoint;
 pub mod csv;
 mod error;
 mod fields;
+mod fit;
 mod html;
 mod little_endian;
 pub mod npz;
@@ -20,6 +21,7 @@ pub use checkpoint::{CHECKPOINT, EarlierFields, EarlierFile, Keeper, Stored, rea
 pub use csv::write_history;
 pub use error::OutputError;
 pub use fields::{FieldFormat, FieldSeries, write_fields};
+pub use fit::{FIT_PICTURE, check_fit_folder, write_fit};
 pub use html::{RunPage, write_run_page};
 pub use plot::{Figure, write_plot};
 pub use report::{LawReport, Report, StabilityReport};

@@ -6,6 +6,7 @@
 
 mod axis;
 mod curve;
+mod fit;
 mod panel;
 mod study;
 
@@ -21,6 +22,7 @@ use plotters::prelude::SVGBackend;
 use std::io::Write;
 use std::path::Path;
 
+pub(super) use fit::write_fit_plot;
 pub(super) use study::{study_svg, write_study_plot};
 
 /// Size of the figure in pixels.

@@ -7,6 +7,7 @@
 mod checkpoint;
 mod event;
 mod field;
+mod fit;
 mod geometry;
 mod history;
 mod identity;
@@ -18,6 +19,7 @@ mod units;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use event::{Event, Nobody, Observer, Wish};
 pub use field::{Field, FieldData, Snapshot};
+pub use fit::{FitParameter, FitPoint, FitRecord};
 pub use geometry::{Geometry, Grid, PointIds, Points};
 pub use history::{History, HistoryRow};
 pub use identity::{Difference, Identity, LawIdentity};

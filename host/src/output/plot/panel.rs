@@ -115,7 +115,7 @@ fn stroke_curve(sheet: &Sheet<'_>, points: &[(f64, f64)], look: Look) -> Result<
     }
 }
 
-fn dot(sheet: &Sheet<'_>, at: (f64, f64), look: Look) -> Result<(), Failure> {
+pub(super) fn dot(sheet: &Sheet<'_>, at: (f64, f64), look: Look) -> Result<(), Failure> {
     let radius = 3.5 * f64::from(FINE);
     match look {
         Look::End => sheet.draw(&Circle::new(fine(at), radius as u32, ShapeStyle::from(colour(look)).filled())),
