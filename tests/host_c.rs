@@ -65,6 +65,34 @@ fn bad_input_is_said_and_changes_nothing() {
 }
 
 #[test]
+fn bad_input_from_cpp_and_fortran_is_said_and_changes_nothing() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let here = folder.path();
+    let source = |name: &str| root().join("tests/data/host_c").join(name).canonicalize().expect("it is there");
+    let ran = |program: &Path, least: usize| {
+        let output = Command::new(program).output().expect("the program starts");
+        let said = said(&output);
+        let checks = said.trim().strip_suffix(" checks").and_then(|count| count.parse::<usize>().ok());
+        assert!(output.status.success() && checks >= Some(least), "{:?}: {said}", output.status);
+    };
+    linked(
+        "CXX",
+        "c++",
+        &["-std=c++11", "-Wextra", "-pedantic", "-Werror"],
+        &[source("inputs.cpp")],
+        &here.join("cpp"),
+    );
+    ran(&here.join("cpp"), 18);
+    if fortran("bad input to the host library from Fortran") {
+        let mut sources =
+            ["wearlaw.f90", "wearlaw_host.f90"].map(|name| include().canonicalize().unwrap().join(name)).to_vec();
+        sources.push(source("inputs.f90"));
+        linked("FC", "gfortran", &["-std=f2008"], &sources, &here.join("f90"));
+        ran(&here.join("f90"), 25);
+    }
+}
+
+#[test]
 fn state_is_committed_rolled_back_and_restarted() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let library = law(folder.path(), "plugins/example-cpp/running_in.cpp", "running_in.so", &[]);

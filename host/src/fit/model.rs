@@ -136,8 +136,8 @@ impl<'a> Model<'a> {
 /// Finds the number that a name means, `K` or `contact.modulus`.
 fn varied_of(name: &str, document: &serde_json::Value, law: &LawDescriptor) -> Result<Varied, FitError> {
     let of = |key: &str| {
-        let parts = key.split('.');
-        let found = parts.fold(Some(document), |at, part| match at? {
+        let mut parts = key.split('.');
+        let found = parts.try_fold(document, |at, part| match at {
             serde_json::Value::Array(list) => list.get(part.parse::<usize>().ok()?),
             table => table.get(part),
         });
